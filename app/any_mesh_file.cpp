@@ -47,15 +47,16 @@ other_format format_of(const std::filesystem::path& path) {
   return other_format::none;
 }
 
-void for_each_of_other(other_format format, const std::filesystem::path& path, const io::piece_visitor& f) {
+void for_each_of_other(other_format format, const std::filesystem::path& path, const io::piece_visitor& f,
+                       [[maybe_unused]] io::element_order elements) {
   if (format == other_format::mfem)
-    return io::for_each_mfem_piece(path, f);
+    return io::for_each_mfem_piece(path, f, elements);
   if (format == other_format::openfoam)
     return io::for_each_openfoam_piece(path, f);
 #ifdef DOVETAIL_DRIVER_WITH_HDF5
   if (format == other_format::hdf5)
-    return io::for_each_hdf5_piece(path, f);
-  io::loaded_mesh whole = io::read_hdf5_ranks(path);
+    return io::for_each_hdf5_piece(path, f, elements);
+  io::loaded_mesh whole = io::read_hdf5_ranks(path, elements);
   io::detail::order_points(whole, path);
   f(whole, whole.files.front());
 #else
@@ -136,25 +137,27 @@ std::vector<std::filesystem::path> files_of_any_mesh(const std::filesystem::path
   return files;
 }
 
-bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_visitor& f) {
+bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_visitor& f,
+                           io::element_order elements) {
   const other_format format = format_of(path);
   if (format == other_format::none)
-    return io::for_each_piece_file(path, io::zlib_expand, f);
+    return io::for_each_piece_file(path, io::zlib_expand, f, elements);
   bool of_tetrahedra = true;
-  for_each_of_other(format, path, [&](const io::loaded_mesh& piece, const std::filesystem::path& file) {
+  const auto visit = [&](const io::loaded_mesh& piece, const std::filesystem::path& file) {
     of_tetrahedra = of_tetrahedra && (!piece.mesh.elements.empty() || piece.triangles.empty());
     if (of_tetrahedra && !piece.mesh.elements.empty())
       f(piece, file);
-  });
+  };
+  for_each_of_other(format, path, visit, elements);
   return of_tetrahedra;
 }
 
-io::loaded_mesh read_any_mesh(const std::filesystem::path& path) {
+io::loaded_mesh read_any_mesh(const std::filesystem::path& path, io::element_order elements) {
   const other_format format = format_of(path);
   if (format == other_format::none)
-    return io::read_mesh(path, io::zlib_expand);
-  return io::detail::joined_pieces(path,
-                                   [&](const io::piece_visitor& f) { for_each_of_other(format, path, f); });
+    return io::read_mesh(path, io::zlib_expand, false, elements);
+  return io::detail::joined_pieces(
+      path, [&](const io::piece_visitor& f) { for_each_of_other(format, path, f, elements); });
 }
 
 } // namespace dovetail::app

@@ -22,9 +22,11 @@ std::filesystem::path find_any_mesh(const std::filesystem::path& path);
 std::vector<std::filesystem::path> files_of_any_mesh(const std::filesystem::path& path);
 
 /// As `io::for_each_piece_file`, of any format.
-bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_visitor& f);
+bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_visitor& f,
+                           io::element_order elements = io::element_order::first);
 
 /// As `io::read_mesh`, of any format.
-io::loaded_mesh read_any_mesh(const std::filesystem::path& path);
+io::loaded_mesh read_any_mesh(const std::filesystem::path& path,
+                              io::element_order elements = io::element_order::first);
 
 } // namespace dovetail::app

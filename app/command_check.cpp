@@ -6,7 +6,9 @@
 #include "run_figures.hpp"
 
 #include "dovetail/files/read_mesh.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/files/streamed_interfaces.hpp"
+#include "dovetail/files/streamed_middles.hpp"
 #include "dovetail/files/streamed_validity.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/mesh/validity.hpp"
@@ -40,16 +42,54 @@ std::string faults_of(const simplicial_mesh<2>& mesh) {
          " and " + std::to_string(pairs.front().second) + (pairs.size() > 1 ? ", ...)" : ")");
 }
 
-int print_validity(const std::string& faults, const std::string& file, int dimension, std::uint64_t elements,
-                   std::uint64_t points) {
+/// How much a mesh has.
+struct mesh_extent {
+  int dimension;
+  std::uint64_t elements;
+  std::uint64_t vertices;
+  std::uint64_t middles; ///< of edges, where elements are of second order
+};
+
+/// Of files whose tables of names have all materials or CAD faces: what is not in them, in words; empty where
+/// all is.
+std::string without_name(const io::loaded_mesh& mesh, const std::filesystem::path& file) {
+  const bool is_surface = file.extension() == ".vtp";
+  const auto& names = is_surface ? mesh.triangle_names : mesh.material_names;
+  if (names.empty() || !(is_surface || file.extension() == ".pvtu"))
+    return {};
+  const auto& tags = is_of_triangles(mesh) ? mesh.triangle_tags : mesh.mesh.tags;
+  const auto count = static_cast<local_id>(names.size());
+  const auto wrong = std::find_if(
+      tags.begin(), tags.end(), [&](local_id tag) { return tag >= count || tag < (is_surface ? no_id : 0); });
+  if (wrong == tags.end())
+    return {};
+  return "element " + std::to_string(wrong - tags.begin()) + " is of the " +
+         (is_surface ? "CAD face " : "material ") + std::to_string(*wrong) + ", and there are names of " +
+         std::to_string(count);
+}
+
+int print_validity(const std::string& faults, const std::string& file, const mesh_extent& extent) {
   if (!faults.empty()) {
     complain(file + ": not a valid mesh: " + faults);
     return exit_failure;
   }
-  std::printf("%s: a valid mesh of %llu %s and %llu vertices\n", file.c_str(),
-              static_cast<unsigned long long>(elements), dimension == 3 ? "tetrahedra" : "triangles",
-              static_cast<unsigned long long>(points));
+  std::string middles;
+  if (extent.middles > 0)
+    middles = ", of second order with " + std::to_string(extent.middles) + " middles of edges";
+  std::printf("%s: a valid mesh of %llu %s and %llu vertices%s\n", file.c_str(),
+              static_cast<unsigned long long>(extent.elements),
+              extent.dimension == 3 ? "tetrahedra" : "triangles",
+              static_cast<unsigned long long>(extent.vertices), middles.c_str());
   return exit_ok;
+}
+
+/// Calls `f` with the mesh of the corners.
+template <class F>
+void with_corners(const io::loaded_mesh& mesh, const F& f) {
+  if (io::detail::has_middles(mesh))
+    f(io::corners_of(mesh));
+  else
+    f(mesh);
 }
 
 /// Of a mesh of several subdomains.
@@ -97,9 +137,12 @@ public:
     const io::interface_points points = interfaces_.points();
     quality_at_interfaces found;
     local_id pieces = 0;
-    for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const std::filesystem::path&) {
-      found.merge(io::measure_at_interfaces(numbered(piece, pieces++, subdomains_), points));
-    });
+    const auto measure = [&](const io::loaded_mesh& corners) {
+      found.merge(io::measure_at_interfaces(numbered(corners, pieces++, subdomains_), points));
+    };
+    for_each_piece_of_any(
+        file, [&](const io::loaded_mesh& piece, const auto&) { with_corners(piece, measure); },
+        io::element_order::any);
     return found;
   }
 
@@ -132,21 +175,34 @@ std::string name_of(const std::filesystem::path& given, const std::vector<std::f
 std::optional<int> check_streamed(const std::filesystem::path& file,
                                   std::vector<std::filesystem::path>& files) {
   io::streamed_validity found;
+  io::streamed_middles<3> middles;
+  std::string nameless;
   interfaces_of_files interfaces;
   numbers_of_pieces all;
-  if (!for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const auto& path) {
-        found.add(piece, path.filename().string());
-        interfaces.add(piece);
-        all.add(piece);
-        files.push_back(path);
-      }))
+  const auto add = [&](const io::loaded_mesh& piece, const std::filesystem::path& path) {
+    with_corners(piece, [&](const io::loaded_mesh& corners) {
+      found.add(corners, path.filename().string());
+      interfaces.add(corners);
+    });
+    middles.add(piece, path.filename().string());
+    if (nameless.empty() && !(nameless = without_name(piece, file)).empty())
+      nameless = path.filename().string() + ": " + nameless;
+    all.add(piece);
+    files.push_back(path);
+  };
+  if (!for_each_piece_of_any(file, add, io::element_order::any))
     return std::nullopt;
   const std::string name = name_of(file, files);
   try {
     std::string faults = found.faults();
     if (faults.empty())
-      faults = all.elsewhere(found.points());
-    const int result = print_validity(faults, name, 3, found.elements(), found.points());
+      faults = middles.faults();
+    if (faults.empty())
+      faults = nameless;
+    const mesh_extent extent{3, found.elements(), found.points(), middles.points()};
+    if (faults.empty())
+      faults = all.elsewhere(extent.vertices + extent.middles);
+    const int result = print_validity(faults, name, extent);
     if (result == exit_ok)
       print_at_interfaces(interfaces.read_again(file), 3);
     return result;
@@ -164,21 +220,41 @@ void warn_of_part(const std::string& file, const std::string& elsewhere) {
 std::optional<int> measure_streamed(const std::filesystem::path& file, const stats_options& options) {
   quality_statistics quality;
   interfaces_of_files interfaces;
-  io::number_ranges points;
+  io::number_ranges points, nodes;
   numbers_of_pieces all;
   std::vector<std::filesystem::path> files;
-  if (!for_each_piece_of_any(file, [&](const io::loaded_mesh& piece, const auto& path) {
-        quality.merge(measure_quality(piece.mesh), quality.elements);
-        interfaces.add(piece);
-        for (const global_id id : piece.node_ids)
-          points.add(id);
-        all.add(piece);
-        files.push_back(path);
-      }))
+  const auto add_numbers = [](io::number_ranges& to, const io::loaded_mesh& piece) {
+    for (const global_id id : piece.node_ids)
+      to.add(id);
+  };
+  const auto add = [&](const io::loaded_mesh& piece, const std::filesystem::path& path) {
+    with_corners(piece, [&](const io::loaded_mesh& corners) {
+      quality.merge(measure_quality(corners.mesh), quality.elements);
+      interfaces.add(corners);
+      add_numbers(points, corners);
+    });
+    add_numbers(nodes, piece);
+    all.add(piece);
+    files.push_back(path);
+  };
+  if (!for_each_piece_of_any(file, add, io::element_order::any))
     return std::nullopt;
   const std::string name = name_of(file, files);
-  warn_of_part(name, all.elsewhere(points.count()));
+  warn_of_part(name, all.elsewhere(nodes.count()));
   return print_quality(quality, interfaces.read_again(file), points.count(), 3, name, options);
+}
+
+/// Of a mesh that was read at once.
+struct found_middles {
+  std::string faults;
+  std::uint64_t points;
+};
+
+template <int D>
+found_middles check_middles(const io::loaded_mesh& mesh) {
+  io::streamed_middles<D> middles;
+  middles.add(mesh, "");
+  return {middles.faults(), middles.points()};
 }
 
 /// A mesh that was read at once.
@@ -190,11 +266,13 @@ struct whole_mesh {
   std::string elsewhere; ///< what says that it is a part of another one
 };
 
-/// Calls `f` with that: tetrahedra, or triangles where there are none.
+/// Calls `f` with that: tetrahedra, or triangles where there are none; of second order with their corners.
 template <class F>
 int with_mesh_of(const std::filesystem::path& file, io::loaded_mesh loaded, const F& f) {
   std::string name = name_of(file, loaded.files);
   std::string elsewhere = part_of_larger(loaded, file);
+  if (io::detail::has_middles(loaded))
+    loaded = io::corners_of(loaded);
   if (!is_of_triangles(loaded))
     return f(whole_mesh<3>{std::move(loaded.mesh), std::move(loaded.subdomains), std::move(name),
                            std::move(elsewhere)});
@@ -218,13 +296,18 @@ int check_files(const std::string& report) {
 int check_file(const std::filesystem::path& file, std::vector<std::filesystem::path>& files) {
   if (const auto result = check_streamed(file, files))
     return *result;
-  io::loaded_mesh loaded = read_any_mesh(file);
+  io::loaded_mesh loaded = read_any_mesh(file, io::element_order::any);
   files = loaded.files;
-  return with_mesh_of(file, std::move(loaded), []<int D>(const whole_mesh<D>& read) {
+  const found_middles middles = is_of_triangles(loaded) ? check_middles<2>(loaded) : check_middles<3>(loaded);
+  const std::string nameless = without_name(loaded, file);
+  return with_mesh_of(file, std::move(loaded), [&]<int D>(const whole_mesh<D>& read) {
     const simplicial_mesh<D>& mesh = read.mesh;
-    const std::string faults = faults_of(mesh);
-    const int result = print_validity(faults.empty() ? read.elsewhere : faults, read.name, D,
-                                      mesh.elements.size(), mesh.points.size());
+    std::string faults = faults_of(mesh);
+    for (const std::string& others : {middles.faults, nameless, read.elsewhere})
+      if (faults.empty())
+        faults = others;
+    const int result =
+        print_validity(faults, read.name, {D, mesh.elements.size(), mesh.points.size(), middles.points});
     if (result == exit_ok)
       print_at_interfaces(found_at_interfaces(mesh, read.subdomains), D);
     return result;
@@ -267,11 +350,12 @@ int run_stats(const stats_options& options) {
   const std::filesystem::path file = find_any_mesh(options.mesh);
   if (const auto result = measure_streamed(file, options))
     return *result;
-  return with_mesh_of(file, read_any_mesh(file), [&]<int D>(const whole_mesh<D>& read) {
-    warn_of_part(read.name, read.elsewhere);
-    return print_quality(measure_quality(read.mesh), found_at_interfaces(read.mesh, read.subdomains),
-                         read.mesh.points.size(), D, read.name, options);
-  });
+  return with_mesh_of(
+      file, read_any_mesh(file, io::element_order::any), [&]<int D>(const whole_mesh<D>& read) {
+        warn_of_part(read.name, read.elsewhere);
+        return print_quality(measure_quality(read.mesh), found_at_interfaces(read.mesh, read.subdomains),
+                             read.mesh.points.size(), D, read.name, options);
+      });
 }
 
 } // namespace dovetail::app

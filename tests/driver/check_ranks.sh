@@ -79,7 +79,7 @@ for file in "${judged[@]}"; do
 done
 
 # So it is with those that no other command reads, by any of their files; a damaged one is named.
-others=(mesh.000001 processor1 processor2/constant/polyMesh/faces)
+others=(mesh.000001 processor1 processor1/constant processor2/constant/polyMesh/faces)
 [[ ! -e $set/ranks.h5 ]] || others+=(ranks.h5 ranks.xdmf ranks.vtkhdf mesh.xdmf mesh_0001.vtkhdf)
 for file in "${others[@]}"; do
   expect_success check "$set/$file"
@@ -152,9 +152,11 @@ grep -q "ranks_0003.vtu: there is no such file" "$sandbox/stderr" || fault "the 
 # Elements of second order are those of the same mesh; with ghosts, the same by one worker.
 readers=(vtkmodules.vtkIOXML:pvtu os:mfem)
 formats=pvtu,msh-ranks,mfem
+judged=(ranks.pvtu "ranks_1.msh to ranks_3.msh" "mesh.000000 to mesh.000002")
 if "$driver" mesh --help | grep -q "xdmf"; then
   readers+=(h5py:xdmf)
-  formats+=,xdmf
+  formats+=,xdmf,vtkhdf,hdf5
+  judged+=(mesh.xdmf ranks.xdmf ranks.vtkhdf)
 fi
 quadratic=("${small[@]}" --subdomains 8 --ranks 3 --order 2 --ghosts --format "$formats" --report report.json)
 expect_success "${quadratic[@]}" --workers 2
@@ -168,9 +170,32 @@ for each in "${readers[@]}"; do
     [[ $format != pvtu || $said != *" 0 ghosts"* ]] || fault "no ghosts of second order"
   fi
 done
+expect_success check "$inputs/quadratic"
+for file in "${judged[@]}"; do
+  grep -q "/$file: a valid mesh of $elements tetrahedra and .* of second order with [0-9]* middles of edges" "$sandbox/stdout" ||
+    fault "not judged: $file"
+done
+(($(sed -n 's/.* vertices, //p' "$sandbox/stdout" | sort -u | wc -l) == 1)) || fault "different numbers of middles"
+expect_error "ranks.pvtu: .*quadratic tetrahedron|ranks_0000.vtu: .*quadratic tetrahedron" improve "$inputs/quadratic" -o better.vtu
+set=$inputs/quadratic
+last_middle=$(($(grep -n '^mfem_serial_mesh_end' "$set/mesh.000001" | cut -d: -f1) - 2))
+damaged mesh.000001 "mesh.000001: ([0-9]+ x element that its middles may invert|the middle of shared edge .* is not where)" \
+  sed -i "${last_middle}s/^[^ ]* /9 /"
 expect_success "${quadratic[@]}" --workers 1
 diff -rq "$inputs/quadratic" "$sandbox/work/out" | grep -v finished_run && fault "other nodes by one worker"
-expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 2 --order 2
+formats=pvtu,vtu,msh
+judged=(mesh.pvtu ranks.pvtu mesh.msh)
+if "$driver" mesh --help | grep -q "xdmf"; then
+  formats+=,xdmf,vtkhdf,hdf5
+  judged+=(mesh.xdmf ranks.xdmf ranks.vtkhdf)
+fi
+expect_success mesh "$inputs/cube.off" --size 0.15 --dimension 2 --subdomains 4 --ranks 2 --order 2 --format "$formats"
+mv "$sandbox/work/out" "$inputs/flat"
+expect_success check "$inputs/flat"
+for file in "${judged[@]}"; do
+  grep -q "/$file: a valid mesh of [0-9]* triangles and .* of second order with [0-9]* middles of edges" "$sandbox/stdout" ||
+    fault "not judged: $file"
+done
 expect_success mesh "$inputs/cube.off" --size 0.15 --subdomains 2 --ranks 3 --redistribute by-elements --order 2 \
   --report report.json
 [[ $(counter largest_rank) =~ ^[1-9] ]] || fault "no elements of second order of ranks"

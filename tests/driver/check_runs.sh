@@ -80,6 +80,23 @@ rm -rf "$inputs/mesh" && mv "$sandbox/work/out" "$inputs/mesh"
 for file in "$inputs"/mesh/mesh.{pvtu,xdmf}; do
   [[ ! -e $file ]] || expect_at_interfaces "$of_run" "$rows_of_run" "$file"
 done
+# A material or a CAD face without a name.
+overwrite_end() { # file, array of which the last bytes are written over, these as printf has them
+  local file=$1 offset start bytes
+  offset=$(grep -ao "<DataArray [^>]*Name=\"$2\"[^>]*>" "$file" | head -n 1 | sed 's/.*offset="\([0-9]*\)".*/\1/')
+  start=$(grep -abo '<AppendedData encoding="raw">' "$file" | head -n 1 | cut -d: -f1)
+  start=$((start + 31 + offset)) # behind the end of the line and "_"
+  bytes=$(od -An -t u8 -j "$start" -N 8 "$file" | tr -d ' ')
+  printf "$3" >"$sandbox/bytes"
+  dd if="$sandbox/bytes" of="$file" bs=1 conv=notrunc seek=$((start + 8 + bytes - $(stat -c %s "$sandbox/bytes"))) status=none
+}
+for damage in "surface.vtp cad_face CAD.face" "mesh_0000.vtu region material"; do
+  read -r file array kind <<<"$damage"
+  cp "$inputs/mesh/$file" "$inputs/whole"
+  overwrite_end "$inputs/mesh/$file" "$array" '\x63\0\0\0'
+  expect_error "$file: .*element [0-9]+ is of the $kind 99, and there are names of [0-9]+" check "$inputs/mesh/${file/_0000.vtu/.pvtu}"
+  mv "$inputs/whole" "$inputs/mesh/$file"
+done
 mesh --size 0.3 --subdomains 1
 mv "$sandbox/work/out" "$inputs/one_piece"
 expect_no_interfaces "$inputs/one_piece/mesh.pvtu"
@@ -90,8 +107,23 @@ mesh --size 0.08 --subdomains 4 --format vtu,msh --order 2 --files 1
 grep -q '"moved_back"' "$sandbox/work/report.json" || fault "the report does not tell of middles"
 cp "$sandbox/work/out/mesh.msh" "$inputs/second.msh"
 cp "$sandbox/work/out/mesh_0000.vtu" "$inputs/second.vtu"
-expect_error "elements of type 8; only points" check "$inputs/second.msh"
-expect_error "quadratic tetrahedron" check "$inputs/second.vtu"
+rm -rf "$inputs/second" && mv "$sandbox/work/out" "$inputs/second"
+for file in "$inputs"/second{.msh,.vtu,/mesh.pvtu}; do
+  expect_success check "$file"
+  grep -qE "valid mesh of $elements tetrahedra and [0-9]+ vertices, of second order with [0-9]+ middles of edges$" \
+    "$sandbox/stdout" || fault "no mesh of second order"
+  expect_success stats "$file"
+  grep -q "No. of tetrahedra" "$sandbox/stdout" || fault "no quality of second order"
+done
+expect_error "elements of type 8; only points" improve "$inputs/second.msh" -o better.vtu
+expect_error "quadratic tetrahedron" adapt "$inputs/second.vtu" -s 0.2 -o next.vtu
+
+# A middle that is elsewhere, and one that is another point.
+overwrite_end "$inputs/second.vtu" Points '\x24\x40' # z is 10
+expect_error "second.vtu: not a valid mesh: [0-9]+ x element that its middles may invert \([0-9]+\)" check "$inputs/second.vtu"
+cp "$inputs/second/mesh_0000.vtu" "$inputs/second.vtu"
+overwrite_end "$inputs/second.vtu" connectivity '\0\0\0\0'
+expect_error "second.vtu: not a valid mesh: a corner is also the middle of an edge \(point 0\)" check "$inputs/second.vtu"
 expect_usage_error "--order" mesh --order 3
 
 # An edge so sharp that interfaces cannot end there without small angles: they are listed with what forces them.

@@ -1,7 +1,7 @@
 // What HDF5 files say is what was written, and what one of them says of another must fit.
-#include "files/bent_edges.hpp"
 #include "files/read_back.hpp"
 #include "files/scratch_folder.hpp"
+#include "files/second_order_verdict.hpp"
 #include "files/stacked_cubes.hpp"
 
 #include "dovetail/core/encoding.hpp"
@@ -170,7 +170,7 @@ TEST_CASE("ranks: what is read is what was written, ghosts left out") {
   }
 }
 
-TEST_CASE("triangles are read too, and second order is refused") {
+TEST_CASE("triangles are read too, and second order where that is asked for") {
   const auto mesh = plane_mesh();
   const testing::scratch_folder folder("hdf5_triangles");
   io::hdf5_writer{}(mesh, folder);
@@ -191,6 +191,30 @@ TEST_CASE("triangles are read too, and second order is refused") {
   CHECK(testing::refusal_of<input_error>([&] {
           io::read_hdf5_ranks(folder / "ranks.h5");
         }).find("elements of second order are not read") != std::string::npos);
+  const auto check = [&](const std::string& name) {
+    return testing::check_second_order(
+        [&](const auto& f) { io::for_each_hdf5_piece(folder / name, f, io::element_order::any); });
+  };
+  for (const char* name : {"mesh.xdmf", "ranks.vtkhdf"})
+    testing::expect_second_order(check(name), cubes.whole());
+  io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = true}(quadratic, folder);
+  testing::expect_second_order(check("ranks.vtkhdf"), cubes.whole());
+  const auto whole = io::read_hdf5_ranks(folder / "ranks.h5", io::element_order::any);
+  testing::expect_bent_edges(whole);
+  io::streamed_middles<3> middles;
+  middles.add(whole, "");
+  CHECK(middles.faults() == "");
+
+  io::rank_writer<io::vtkhdf_format>{.ranks = 4}(quadratic, folder); // whose last point another rank has too
+  change<double>(
+      folder / "ranks.vtkhdf", "VTKHDF/Points", [](auto& x) { x.back() += 9; }, 3);
+  CHECK(testing::refusal_of<input_error>([&] { check("ranks.vtkhdf"); }).find("not the same coordinates") !=
+        std::string::npos);
+  const auto file = folder / "mesh_0003.vtkhdf";
+  change<double>(
+      file, "VTKHDF/Points", [](auto& x) { x.back() += 9; }, 3);
+  CHECK(check("mesh.xdmf").faults.find("mesh_0003.vtkhdf: ") == 0);
+  CHECK(check("mesh.xdmf").faults.find(" x element that its middles may invert (") != std::string::npos);
 }
 
 TEST_CASE("pieces: a file with one thing changed is refused, in words that name it") {
@@ -233,6 +257,12 @@ TEST_CASE("pieces: a file with one thing changed is refused, in words that name 
   });
   refuse("CellData/subdomain: an element of subdomain 0 says that it is of 1",
          set(file, root + "CellData/subdomain", 0, local_id{1}));
+  refuse("it has the material 3, and the skeleton has names of 3", [&] {
+    change<local_id>(file, root + "CellData/region", [](auto& regions) {
+      for (local_id& region : regions)
+        region = 3;
+    });
+  });
   refuse("CellData/region: subdomain 0 has more than one material",
          set(file, root + "CellData/region", 1, local_id{2}));
   refuse("pieces/subdomain: partition 0 is subdomain 4, not 0",
@@ -396,6 +426,11 @@ TEST_CASE("ranks: a file with one thing changed is refused, in words that name i
         3);
   });
   refuse("sides/cad: entry 0 is -1", set("sides/cad", 0, local_id{-1}));
+  refuse("sides/cad: entry 3 is 1000000, and there are", set("sides/cad", 3, local_id{1000000}));
+  refuse("cells/subdomain: entry 7 is 99, and by its number the element is of",
+         set("cells/subdomain", 7, local_id{99}));
+  refuse("cells/subdomain: entry 1295 is 27, and by its number the element is of",
+         set("cells/subdomain", 1295, local_id{27}));
   refuse("sides/patch: entry 0 is 9", set("sides/patch", 0, local_id{9}));
   refuse("viz/topology/cells: it announces",
          [&] { replace<global_id>(file, cells, {}, 4, std::uint64_t{1} << 50); });

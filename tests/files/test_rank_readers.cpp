@@ -1,7 +1,7 @@
 // What MFEM's and OpenFOAM's files say is what was written, and what ranks say of each other must fit.
-#include "files/bent_edges.hpp"
 #include "files/read_back.hpp"
 #include "files/scratch_folder.hpp"
+#include "files/second_order_verdict.hpp"
 #include "files/stacked_cubes.hpp"
 
 #include "dovetail/files/streamed_validity.hpp"
@@ -222,12 +222,52 @@ TEST_CASE("MFEM: a file with one thing changed is refused, in words that name it
         std::string::npos);
 }
 
-TEST_CASE("MFEM of second order is refused") {
+TEST_CASE("MFEM of second order is read where that is asked for") {
   const testing::scratch_folder folder("mfem_quadratic");
-  io::rank_writer<io::mfem_format>{.ranks = 2}(testing::with_bent_edges(cubes.distributed()), folder);
-  CHECK(testing::refusal_of<input_error>([&] {
-          io::read_mfem(folder / "mesh.000000");
-        }).find("second order are not read") != std::string::npos);
+  for (const int ranks : {1, 4}) {
+    io::rank_writer<io::mfem_format>{.ranks = ranks}(testing::with_bent_edges(cubes.distributed()), folder);
+    const auto check = [&] {
+      return testing::check_second_order(
+          [&](const auto& f) { io::for_each_mfem_piece(folder / "mesh.000000", f, io::element_order::any); });
+    };
+    testing::expect_second_order(check(), cubes.whole());
+    CHECK(testing::refusal_of<input_error>([&] {
+            io::read_mfem(folder / "mesh.000000");
+          }).find("second order are not read") != std::string::npos);
+    if (ranks == 1)
+      continue;
+    const auto refuse = [&](const std::string& expected, const std::string& heading, std::size_t after,
+                            const std::string& line) {
+      testing::expect_refusal(
+          folder / "mesh.000001", expected,
+          [&](text_lines& text) { text.lines[text.find(heading) + after] = line; }, check);
+    };
+    testing::expect_reading_or_refusal(folder / "mesh.000001", 100, [&] {
+      io::streamed_middles<3> middles;
+      const auto add = [&](const io::loaded_mesh& piece, const auto& file) {
+        middles.add(piece, file.string());
+      };
+      io::for_each_mfem_piece(folder / "mesh.000000", add, io::element_order::any);
+      middles.faults();
+    });
+    refuse("'H1_3D_P2' is expected, not 'H1_3D_P3'", "FiniteElementCollection", 0,
+           "FiniteElementCollection: H1_3D_P3");
+    text_lines text(folder / "mesh.000001");
+    const auto corners = std::stoul(text.lines[text.find("vertices") + 1]);
+    std::size_t moved = 0;
+    for (auto at = text.find("Ordering") + 1 + corners; moved == 0; ++at) { // a middle that others have too
+      text_lines spoiled = text;
+      spoiled.lines[at] = "0.5 0.5 0.5";
+      spoiled.write();
+      if (testing::refusal_of<input_error>(check).find("the middle of shared edge ") != std::string::npos)
+        moved = at;
+    }
+    CHECK(moved > 0);
+    text.lines[text.find("mfem_serial_mesh_end") - 2] = "9 9 9"; // one that no other has
+    text.write();
+    CHECK(check().faults.find("mesh.000001: ") == 0);
+    CHECK(check().faults.find(" x element that its middles may invert (") != std::string::npos);
+  }
 }
 
 TEST_CASE("OpenFOAM: what is read is what was written, of one case and of processors") {

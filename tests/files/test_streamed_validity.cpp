@@ -1,13 +1,17 @@
+#include "dovetail/files/msh_writer.hpp"
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/streamed_validity.hpp"
 #include "dovetail/files/vtu_writer.hpp"
 #include "files/scratch_folder.hpp"
+#include "files/second_order_verdict.hpp"
 #include "files/stacked_cubes.hpp"
 
 #include <doctest/doctest.h>
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace dovetail;
 
@@ -152,6 +156,121 @@ TEST_CASE("faults between pieces are found") {
   torn.add(one, "one");
   torn.add(other, "other");
   CHECK_THROWS_WITH_AS(torn.faults(), doctest::Contains("global number 0"), input_error);
+}
+
+TEST_CASE("elements of second order in one file and in several") {
+  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const testing::scratch_folder folder("streamed_second_order");
+  for (const int files : {0, 3}) {
+    io::vtu_writer{.files = files}(mesh, folder);
+    testing::expect_second_order(testing::check_second_order([&](const auto& f) {
+                                   io::for_each_piece_file(folder, nullptr, f, io::element_order::any);
+                                 }),
+                                 cubes.whole());
+  }
+  CHECK_THROWS_WITH_AS(io::read_mesh(folder), doctest::Contains("quadratic tetrahedron"), input_error);
+  io::msh_writer{}(mesh, folder);
+  CHECK_THROWS_WITH_AS(io::read_mesh(folder / "mesh.msh"), doctest::Contains("elements of type"),
+                       input_error);
+  for (const char* name : {"mesh.pvtu", "mesh.msh"}) {
+    CAPTURE(name);
+    const auto read = io::read_mesh(folder / name, nullptr, false, io::element_order::any);
+    testing::expect_bent_edges(read);
+    CHECK(read.triangle_middles.size() == read.triangles.size());
+    testing::expect_second_order(testing::check_second_order([&](const auto& f) { f(read, "whole"); }),
+                                 cubes.whole());
+  }
+}
+
+TEST_CASE("damaged middles of edges are found") {
+  const testing::scratch_folder folder("streamed_middles");
+  io::vtu_writer{}(testing::with_bent_edges(cubes.distributed()), folder);
+  std::vector<io::loaded_mesh> pieces;
+  io::for_each_piece_file(
+      folder, nullptr, [&](const auto& piece, const auto&) { pieces.push_back(piece); },
+      io::element_order::any);
+  const auto faults = [&](std::size_t p, const std::function<void(io::loaded_mesh&)>& spoil) {
+    io::streamed_middles<3> middles;
+    for (std::size_t q = 0; q < pieces.size(); ++q) {
+      io::loaded_mesh piece = pieces[q];
+      if (q == p)
+        spoil(piece);
+      middles.add(piece, "piece " + std::to_string(q));
+    }
+    return middles.faults();
+  };
+  CHECK(faults(0, [](io::loaded_mesh&) {}) == "");
+
+  // Of piece 3: an edge inside it, and one that other pieces have too; the element and its edge.
+  const auto find_edge = [&](bool inside) {
+    const auto& piece = pieces[3];
+    std::vector<bool> on_boundary(piece.mesh.points.size(), false);
+    const auto sides = build_sides(piece.mesh);
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      if (sides.is_boundary(static_cast<local_id>(s)))
+        for (const local_id v : sides.vertices[s])
+          on_boundary[v] = true;
+    const auto elsewhere = [&](local_id v) {
+      for (std::size_t q = 0; q < pieces.size(); ++q)
+        if (const auto& ids = pieces[q].node_ids;
+            q != 3 && std::find(ids.begin(), ids.end(), piece.node_ids[v]) != ids.end())
+          return true;
+      return false;
+    };
+    for (std::size_t e = 0; e < piece.middles.size(); ++e)
+      for (std::size_t k = 0; k < 6; ++k) {
+        const local_id a = piece.mesh.elements[e][numbering::edges<3>[k][0]];
+        if (inside ? !on_boundary[a] : elsewhere(piece.middles[e][k]))
+          return std::pair(e, k);
+      }
+    FAIL("there is no such edge");
+    return std::pair(std::size_t{0}, std::size_t{0});
+  };
+  for (const bool inside : {true, false}) {
+    CAPTURE(inside);
+    const auto [e, k] = find_edge(inside);
+    const auto middle = [&, e = e, k = k](io::loaded_mesh& piece) -> local_id& {
+      return piece.middles[e][k];
+    };
+    if (inside) {
+      const std::string said = faults(3, [&](io::loaded_mesh& piece) {
+        piece.mesh.points[middle(piece)] += vec3{0.9, 0, 0};
+      });
+      CHECK(said.starts_with("piece 3: "));
+      CHECK(said.find(" x element that its middles may invert (") != std::string::npos);
+    }
+    const auto doubled = [&](io::loaded_mesh& piece) {
+      piece.mesh.points.push_back(piece.mesh.points[middle(piece)]);
+      piece.node_ids.push_back(99999);
+      middle(piece) = static_cast<local_id>(piece.node_ids.size() - 1);
+    };
+    CHECK(faults(3, doubled).find("1 x edge with more than one middle (from point ") != std::string::npos);
+    CHECK(faults(3, [&](io::loaded_mesh& piece) {
+            middle(piece) = piece.mesh.elements[e][0];
+          }).find("a corner is also the middle of an edge (point ") != std::string::npos);
+    CHECK(faults(3, [&](io::loaded_mesh& piece) {
+            piece.mesh.points.emplace_back();
+            piece.node_ids.push_back(99999);
+          }) == "1 x isolated point");
+  }
+  const auto [e, k] = find_edge(false);
+  CHECK(faults(3,
+               [&, e = e, k = k](io::loaded_mesh& piece) { // in all elements of this piece
+                 piece.node_ids[piece.middles[e][k]] = 99999;
+               })
+            .starts_with("1 x edge with more than one middle (from point "));
+  CHECK(faults(3, [&, e = e, k = k](io::loaded_mesh& piece) {
+          piece.node_ids[piece.middles[e][k]] = pieces[5].node_ids.back();
+        }) != "");
+  CHECK_THROWS_WITH_AS(
+      faults(3,
+             [&, e = e, k = k](io::loaded_mesh& piece) { piece.mesh.points[piece.middles[e][k]].x += 1e-9; }),
+      doctest::Contains("but not the same coordinates"), input_error);
+  CHECK(faults(3, [](io::loaded_mesh& piece) { piece.middles.clear(); }) ==
+        std::to_string(pieces[3].mesh.elements.size()) +
+            " x element of first order among those of second order");
+  CHECK(faults(3, [](io::loaded_mesh& piece) { piece.middles.pop_back(); }) ==
+        "1 x element of first order among those of second order");
 }
 
 TEST_CASE("numbers as ranges") {

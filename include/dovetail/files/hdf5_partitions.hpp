@@ -3,7 +3,9 @@
 #pragma once
 
 #include "dovetail/files/hdf5_input.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +25,8 @@ namespace dovetail::io::detail {
 /// once, about values when they are read.
 class hdf5_partitions {
 public:
-  explicit hdf5_partitions(const std::filesystem::path& path) : file_(path) {
+  explicit hdf5_partitions(const std::filesystem::path& path, element_order elements = element_order::first)
+      : file_(path) {
     points_ = starts("NumberOfPoints", file_.require_stored(root("Points"), 3, sizeof(double)).rows);
     const auto connectivity = file_.require_stored(root("Connectivity"), 1, sizeof(local_id)).rows;
     const auto ids = starts("NumberOfConnectivityIds", connectivity);
@@ -30,10 +34,10 @@ public:
     if (cells_.size() != points_.size() || ids.size() != points_.size())
       file_.fail(root("NumberOfCells"), "it is not of as many partitions as NumberOfPoints");
     if (cells_.back() > 0)
-      find_corners(file_.read<std::uint8_t>(root("Types"), 0, 1)[0]);
+      find_nodes(file_.read<std::uint8_t>(root("Types"), 0, 1)[0], elements);
     for (std::size_t p = 0; p < ids.size(); ++p)
-      if (ids[p] % corners_ != 0 || ids[p] / corners_ != cells_[p])
-        file_.fail(root("NumberOfConnectivityIds"), "it is not " + std::to_string(corners_) +
+      if (ids[p] % nodes_ != 0 || ids[p] / nodes_ != cells_[p])
+        file_.fail(root("NumberOfConnectivityIds"), "it is not " + std::to_string(nodes_) +
                                                         " per element as their type, " +
                                                         std::to_string(type_) + ", asks for");
     file_.require(root("Offsets"), {cells_.back() + partitions(), 1});
@@ -48,7 +52,9 @@ public:
 
   const hdf5_input& file() const { return file_; }
   std::size_t partitions() const { return points_.size() - 1; }
-  std::uint64_t corners() const { return corners_; } ///< per element
+  std::uint64_t nodes() const { return nodes_; } ///< per element
+  bool has_tetrahedra() const { return nodes_ == 4 || nodes_ == quadratic_nodes<3>; }
+  bool has_middles() const { return nodes_ > 4; }
   std::uint64_t first_point(std::size_t p) const { return points_[p]; }
   std::uint64_t first_cell(std::size_t p) const { return cells_[p]; }
   static std::string root(const std::string& name) { return "VTKHDF/" + name; }
@@ -57,13 +63,12 @@ public:
   loaded_mesh read(std::size_t p) const {
     loaded_mesh mesh;
     const auto points = points_[p + 1] - points_[p], cells = cells_[p + 1] - cells_[p];
-    if (std::max(points, corners_ * cells) > std::numeric_limits<local_id>::max())
+    if (std::max(points, nodes_ * cells) > std::numeric_limits<local_id>::max())
       file_.fail(root("NumberOfPoints"), "partition " + std::to_string(p) + " is too large to be read");
     read_points(p, mesh);
     check_types(p);
-    const auto corner =
-        file_.read<std::int64_t>(root("Connectivity"), corners_ * cells_[p], corners_ * cells);
-    for (const std::int64_t v : corner)
+    const auto nodes = file_.read<std::int64_t>(root("Connectivity"), nodes_ * cells_[p], nodes_ * cells);
+    for (const std::int64_t v : nodes)
       if (v < 0 || static_cast<std::uint64_t>(v) >= points)
         file_.fail(root("Connectivity"), "partition " + std::to_string(p) + " has the point " +
                                              std::to_string(v) + ", and " + std::to_string(points) +
@@ -75,14 +80,14 @@ public:
     for (std::size_t c = 0; c < cells; ++c) {
       if (has_ghosts_ && ghost[c] != 0)
         continue;
-      const std::int64_t* const vertices = &corner[corners_ * c];
-      if (corners_ == 4) {
-        mesh.mesh.elements.push_back(simplex_of<3>(vertices));
+      const std::span of_element(&nodes[nodes_ * c], nodes_);
+      if (has_tetrahedra()) {
+        add_element<3>(of_element, mesh.mesh.elements, mesh.middles);
         mesh.mesh.tags.push_back(region.empty() ? 0 : region[c]);
         if (!subdomain.empty())
           mesh.subdomains.push_back(subdomain[c]);
       } else {
-        mesh.triangles.push_back(simplex_of<2>(vertices));
+        add_element<2>(of_element, mesh.triangles, mesh.triangle_middles);
         mesh.triangle_tags.push_back(region.empty() ? 0 : region[c]);
         if (!subdomain.empty() && !is_skeleton)
           mesh.triangle_subdomains.push_back(subdomain[c]);
@@ -114,15 +119,16 @@ private:
       file_.fail(root(name), "the partitions do not add up to what there is");
     return begins;
   }
-  void find_corners(std::uint8_t type) {
+  void find_nodes(std::uint8_t type, element_order elements) {
     type_ = type;
-    if (type == 24 || type == 22)
+    const bool quadratic = type == 24 || type == 22;
+    if (quadratic && elements == element_order::first)
       file_.fail(root("Types"), "elements of second order are not read, and without --order 2 they are of "
                                 "first order");
-    if (type != 10 && type != 5)
+    if (!quadratic && type != 10 && type != 5)
       file_.fail(root("Types"), "elements of type " + std::to_string(type) +
                                     " are not read; those of tetrahedra and triangles, 10 and 5, are");
-    corners_ = type == 10 ? 4 : 3;
+    nodes_ = quadratic ? (type == 24 ? quadratic_nodes<3> : quadratic_nodes<2>) : (type == 10 ? 4 : 3);
   }
   void check_types(std::size_t p) const {
     const auto cells = cells_[p + 1] - cells_[p];
@@ -132,10 +138,10 @@ private:
                    "it has elements of the types " + std::to_string(type_) + " and " + std::to_string(type));
     const auto offsets = file_.read<std::int64_t>(root("Offsets"), cells_[p] + p, cells + 1);
     for (std::size_t c = 0; c < offsets.size(); ++c)
-      if (offsets[c] < 0 || static_cast<std::uint64_t>(offsets[c]) != corners_ * c)
+      if (offsets[c] < 0 || static_cast<std::uint64_t>(offsets[c]) != nodes_ * c)
         file_.fail(root("Offsets"), "element " + std::to_string(c) + " of partition " + std::to_string(p) +
                                         " begins at " + std::to_string(offsets[c]) + ", not at " +
-                                        std::to_string(corners_ * c));
+                                        std::to_string(nodes_ * c));
   }
   void read_points(std::size_t p, loaded_mesh& mesh) const {
     const auto points = points_[p + 1] - points_[p];
@@ -150,11 +156,12 @@ private:
         file_.fail(root("PointData/GlobalNodeIds"), "the number " + std::to_string(id) + " is negative");
   }
   template <int D>
-  static simplex<D> simplex_of(const std::int64_t* vertices) {
-    simplex<D> result;
-    std::transform(vertices, vertices + D + 1, result.begin(),
+  static void add_element(std::span<const std::int64_t> nodes, std::vector<simplex<D>>& elements,
+                          std::vector<std::array<local_id, edges_per_element<D>>>& middles) {
+    quadratic_simplex<D> vertices{};
+    std::transform(nodes.begin(), nodes.end(), vertices.begin(),
                    [](std::int64_t v) { return static_cast<local_id>(v); });
-    return result;
+    append_element<D>(vertices, nodes.size() == vertices.size(), elements, middles);
   }
   /// Points that another rank owns, and that no element which is left has.
   void drop_points_of_ghosts(std::size_t p, loaded_mesh& mesh) const {
@@ -168,6 +175,8 @@ private:
     };
     use(mesh.mesh.elements);
     use(mesh.triangles);
+    use(mesh.middles);
+    use(mesh.triangle_middles);
     std::size_t kept = 0;
     for (std::size_t v = 0; v < points.size(); ++v) {
       if (place[v] == no_id && of_other[v] != 0)
@@ -185,11 +194,13 @@ private:
     };
     renumber(mesh.mesh.elements);
     renumber(mesh.triangles);
+    renumber(mesh.middles);
+    renumber(mesh.triangle_middles);
   }
 
   hdf5_input file_;
   std::vector<std::uint64_t> points_, cells_; ///< where each partition begins, and the end
-  std::uint64_t corners_ = 4;
+  std::uint64_t nodes_ = 4;                   ///< per element
   std::uint8_t type_ = 10;
   bool has_ghosts_ = false;
 };

@@ -27,11 +27,11 @@ namespace detail {
 /// Where the rows of a grid must be.
 inline void check_slabs(const hdf5_input& file, const std::filesystem::path& index, const xdmf_grid& grid,
                         std::uint64_t first_point, std::uint64_t points, std::uint64_t first_cell,
-                        std::uint64_t corners) {
+                        std::uint64_t nodes) {
   for (const xdmf_slab& slab : grid.arrays) {
     file.require(slab.dataset, {slab.all, slab.columns});
     const bool of_points = slab.dataset.find("Point") != std::string::npos;
-    const std::uint64_t each = slab.dataset.ends_with("Connectivity") ? corners : 1;
+    const std::uint64_t each = slab.dataset.ends_with("Connectivity") ? nodes : 1;
     if (slab.file != file.path() || slab.first != (of_points ? first_point : each * first_cell) ||
         slab.rows != (of_points ? points : each * grid.elements))
       throw input_error(index.string() + ": the rows " + std::to_string(slab.first) + " and on of " +
@@ -44,15 +44,15 @@ inline void check_slabs(const hdf5_input& file, const std::filesystem::path& ind
 class hdf5_piece_files {
 public:
   hdf5_piece_files(std::filesystem::path index, std::vector<std::filesystem::path> files,
-                   std::vector<xdmf_grid> grids)
-      : index_(std::move(index)), files_(std::move(files)), grids_(std::move(grids)) {}
+                   std::vector<xdmf_grid> grids, element_order elements)
+      : index_(std::move(index)), files_(std::move(files)), grids_(std::move(grids)), elements_(elements) {}
 
   void for_each(const piece_visitor& f) {
     std::optional<hdf5_skeleton> skeleton;
     for (const auto& path : files_) {
-      const hdf5_partitions input(path);
-      if (input.corners() == 4 && !skeleton)
-        skeleton.emplace(index_.parent_path() / "skeleton.vtkhdf", grids_.size());
+      const hdf5_partitions input(path, elements_);
+      if (input.has_tetrahedra() && !skeleton)
+        skeleton.emplace(index_.parent_path() / "skeleton.vtkhdf", grids_.size(), input.has_middles());
       const auto& file = input.file();
       const auto subdomains = file.read_list<local_id>("pieces/subdomain");
       const auto shared = file.read_list<local_id>("pieces/skeleton_points");
@@ -74,7 +74,7 @@ public:
                             std::to_string(grids_[next_].elements) + " elements, and " +
                             std::to_string(cells) + " in " + path.string());
         check_slabs(file, index_, grids_[next_], input.first_point(p),
-                    input.first_point(p + 1) - input.first_point(p), input.first_cell(p), input.corners());
+                    input.first_point(p + 1) - input.first_point(p), input.first_cell(p), input.nodes());
         if (first_element[p] != element_)
           file.fail("pieces/first_element", "partition " + std::to_string(p) + " begins with " +
                                                 std::to_string(first_element[p]) + ", not with " +
@@ -119,6 +119,7 @@ private:
   std::filesystem::path index_;
   std::vector<std::filesystem::path> files_;
   std::vector<xdmf_grid> grids_;
+  element_order elements_;
   std::size_t next_ = 0;  ///< piece
   global_id element_ = 0; ///< its first one
 };
@@ -166,17 +167,19 @@ inline std::vector<std::filesystem::path> files_of_hdf5(const std::filesystem::p
 /// where tetrahedra end those that `skeleton.vtkhdf` has of them, in number, place and turn.
 ///
 /// Throws `input_error` naming the file and the dataset, partition or piece, for whatever is not so, and for
-/// elements of second order. About linear; memory: a piece, and the skeleton.
+/// elements of second order unless they are asked for. About linear; memory: a piece, and the skeleton.
 /// \param file XDMF or VTK's HDF format
 /// \param f takes the pieces
-inline void for_each_hdf5_piece(const std::filesystem::path& file, const piece_visitor& f) {
+/// \param elements whether elements of second order are taken
+inline void for_each_hdf5_piece(const std::filesystem::path& file, const piece_visitor& f,
+                                element_order elements = element_order::first) {
   if (const auto index = detail::index_of_pieces(file); !index.empty()) {
     auto grids = detail::xdmf_input(index).read();
     auto files = detail::files_of_grids(grids);
-    detail::hdf5_piece_files(index, std::move(files), std::move(grids)).for_each(f);
+    detail::hdf5_piece_files(index, std::move(files), std::move(grids), elements).for_each(f);
     return;
   }
-  const detail::hdf5_partitions input(file);
+  const detail::hdf5_partitions input(file, elements);
   for (std::size_t p = 0; p < input.partitions(); ++p) {
     loaded_mesh piece = input.read(p);
     detail::order_points(piece, file);

@@ -7,6 +7,7 @@
 #include "dovetail/files/piece_visitor.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,9 +25,10 @@ namespace dovetail::io::detail {
 /// skeleton.
 class hdf5_skeleton {
 public:
-  hdf5_skeleton(const std::filesystem::path& path, std::size_t pieces) : input_(path) {
+  /// `second_order`: whether the pieces have nodes in the middle of edges, which the skeleton has not.
+  hdf5_skeleton(const std::filesystem::path& path, std::size_t pieces, bool second_order) : input_(path) {
     const auto& file = input_.file();
-    if (input_.corners() != 3 || input_.partitions() != 1)
+    if (input_.nodes() != 3 || input_.partitions() != 1)
       throw input_error(path.string() + ": this is no skeleton of tetrahedra: it has not one partition of "
                                         "triangles");
     sides_ = input_.read(0);
@@ -57,12 +59,16 @@ public:
         add(t, front[t], true);
     }
     sort_all(halves_);
+    regions_ = file.extent_of("names/regions").rows;
     first_point_ = file.read_list<global_id>("pieces/first_point");
     first_element_ = file.read_list<global_id>("pieces/first_element");
     for (const auto* first : {&first_point_, &first_element_})
       if (first->size() != pieces + 1 || !std::is_sorted(first->begin(), first->end()))
         file.fail("pieces/first_point", "there are not the numbers of " + std::to_string(pieces) + " pieces");
-    if (first_point_[0] != static_cast<global_id>(sides_.node_ids.size()))
+    std::size_t nodes = sides_.node_ids.size();
+    if (second_order)
+      nodes += build_edges<2>(span_of(sides_.triangles), nodes).vertices.size();
+    if (first_point_[0] != static_cast<global_id>(nodes))
       file.fail("pieces/first_point", "the first is not the number of points of the skeleton");
   }
 
@@ -81,9 +87,14 @@ public:
       if (v < shared ? id >= first_point_[0] : id != first_point_[p] + static_cast<global_id>(v - shared))
         throw input_error(name + "point " + std::to_string(v) + " has the number " + std::to_string(id) +
                           ", which is not that of its place" + anew);
-      if (v < shared && sides_.mesh.points[id] != piece.mesh.points[v])
+      const bool is_middle = static_cast<std::size_t>(id) >= sides_.mesh.points.size();
+      if (v < shared && !is_middle && sides_.mesh.points[id] != piece.mesh.points[v])
         throw input_error(name + "point " + std::to_string(v) + " is not where the skeleton has it" + anew);
     }
+    for (const local_id region : piece.mesh.tags)
+      if (static_cast<std::uint64_t>(region) >= regions_)
+        throw input_error(name + "it has the material " + std::to_string(region) +
+                          ", and the skeleton has names of " + std::to_string(regions_) + anew);
     std::vector<half> found;
     const auto table = build_sides(piece.mesh);
     for (std::size_t s = 0; s < table.size(); ++s)
@@ -120,6 +131,7 @@ private:
   loaded_mesh sides_;
   std::vector<half> halves_;
   std::vector<global_id> first_point_, first_element_;
+  std::uint64_t regions_ = 0; ///< materials that have names
 };
 
 } // namespace dovetail::io::detail

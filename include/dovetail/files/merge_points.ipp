@@ -44,6 +44,8 @@ DOVETAIL_INLINE void append_part(loaded_mesh& mesh, loaded_mesh part) {
   };
   append_simplices(mesh.mesh.elements, part.mesh.elements);
   append_simplices(mesh.triangles, part.triangles);
+  append_simplices(mesh.middles, part.middles);
+  append_simplices(mesh.triangle_middles, part.triangle_middles);
   append(mesh.mesh.tags, part.mesh.tags);
   append(mesh.triangle_tags, part.triangle_tags);
   append(mesh.subdomains, part.subdomains);
@@ -138,6 +140,8 @@ DOVETAIL_INLINE void merge_points(loaded_mesh& mesh) {
   };
   renumber(mesh.mesh.elements);
   renumber(mesh.triangles);
+  renumber(mesh.middles);
+  renumber(mesh.triangle_middles);
   mesh.mesh.points = detail::chosen(mesh.mesh.points, kept);
   if (!mesh.node_ids.empty())
     mesh.node_ids = detail::chosen(mesh.node_ids, kept);

@@ -29,10 +29,11 @@ struct numbered_msh_name {
 std::vector<std::filesystem::path> files_of_parts(const std::filesystem::path& file, const loaded_mesh& part);
 
 /// Reads one of these files. Throws `input_error` when it is a part of something else.
-loaded_mesh read_part(const std::filesystem::path& file, local_id part, local_id parts);
+loaded_mesh read_part(const std::filesystem::path& file, local_id part, local_id parts,
+                      element_order elements);
 
 /// The mesh of which a file has one part.
-loaded_mesh read_all_parts(const std::filesystem::path& file, loaded_mesh part);
+loaded_mesh read_all_parts(const std::filesystem::path& file, loaded_mesh part, element_order elements);
 
 /// Whether an MSH file has, before its nodes, a section about partitions.
 bool names_partitions(const std::filesystem::path& file);

@@ -59,20 +59,22 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> files_of_parts(const std::fil
   return files;
 }
 
-DOVETAIL_INLINE loaded_mesh read_part(const std::filesystem::path& file, local_id part, local_id parts) {
-  loaded_mesh read = msh_reader{}(file);
+DOVETAIL_INLINE loaded_mesh read_part(const std::filesystem::path& file, local_id part, local_id parts,
+                                      element_order elements) {
+  loaded_mesh read = msh_reader{elements}(file);
   if (read.parts != parts || read.parts_here != 1 || read.first_part != part)
     throw input_error(file.string() + ": this is not part " + std::to_string(part + 1) + " of a mesh in " +
                       std::to_string(parts) + " parts, as the files beside it say");
   return read;
 }
 
-DOVETAIL_INLINE loaded_mesh read_all_parts(const std::filesystem::path& file, loaded_mesh part) {
+DOVETAIL_INLINE loaded_mesh read_all_parts(const std::filesystem::path& file, loaded_mesh part,
+                                           element_order elements) {
   const auto files = files_of_parts(file, part);
   loaded_mesh whole;
   for (std::size_t p = 0; p < files.size(); ++p) {
     const auto number = static_cast<local_id>(p);
-    append_part(whole, number == part.first_part ? part : read_part(files[p], number, part.parts));
+    append_part(whole, number == part.first_part ? part : read_part(files[p], number, part.parts, elements));
   }
   complete_point_data(whole);
   try {

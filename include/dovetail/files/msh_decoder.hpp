@@ -5,6 +5,8 @@
 #include "dovetail/core/input_file.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/files/msh_encoder.hpp"
+#include "dovetail/mesh/loaded_mesh.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +46,8 @@ private:
 };
 
 /// The number of nodes of the element types that are read or passed over; 0 for others.
-inline std::size_t msh_node_count(int type) {
+inline std::size_t msh_node_count(int type, element_order elements) {
+  const bool quadratic = elements == element_order::any;
   switch (static_cast<msh_type>(type)) {
   case msh_type::point:
     return 1;
@@ -54,6 +57,12 @@ inline std::size_t msh_node_count(int type) {
     return 3;
   case msh_type::tetrahedron:
     return 4;
+  case msh_type::quadratic_line:
+    return quadratic ? quadratic_nodes<1> : 0;
+  case msh_type::quadratic_triangle:
+    return quadratic ? quadratic_nodes<2> : 0;
+  case msh_type::quadratic_tetrahedron:
+    return quadratic ? quadratic_nodes<3> : 0;
   default:
     return 0;
   }

@@ -6,6 +6,7 @@
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/files/msh_decoder.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,7 +36,8 @@ struct msh_entity_tags {
 /// order.
 class msh_parser {
 public:
-  msh_parser(std::string_view content, const std::string& name) : at_(content, name), in_(at_) {}
+  msh_parser(std::string_view content, const std::string& name, element_order elements)
+      : at_(content, name), in_(at_), elements_(elements) {}
 
   loaded_mesh parse() {
     read_format();
@@ -190,7 +192,7 @@ private:
       const auto dimension = in_.integer();
       const auto tag = in_.integer();
       const auto type = in_.integer();
-      const auto nodes = msh_node_count(type);
+      const auto nodes = msh_node_count(type, elements_);
       const auto count = in_.count_of(8 * (1 + nodes));
       if (nodes == 0 && count > 0)
         refuse(type);
@@ -201,7 +203,7 @@ private:
         parts_with_elements_[dimension].insert(entity.partition - 1);
       for (std::size_t i = 0; i < count; ++i) {
         in_.count();
-        std::array<std::uint64_t, 4> vertices{};
+        node_numbers vertices{};
         for (std::size_t k = 0; k < nodes; ++k)
           vertices[k] = in_.count();
         if (!of_others)
@@ -229,7 +231,7 @@ private:
       if (!in_.binary)
         in_.integer(); // the element's number
       const auto type = in_.integer();
-      const auto nodes = msh_node_count(type);
+      const auto nodes = msh_node_count(type, elements_);
       if (nodes == 0)
         refuse(type);
       const auto in_block = in_.binary ? in_.integer() : 1;
@@ -255,7 +257,7 @@ private:
       else if (t == 3)
         partition = std::abs(value);
     }
-    std::array<std::uint64_t, 4> vertices{};
+    node_numbers vertices{};
     for (std::size_t k = 0; k < nodes; ++k)
       vertices[k] = unsigned_of(in_.integer());
     add_element(type, vertices, physical != 0 ? physical : entity, partition);
@@ -273,18 +275,37 @@ private:
     at_.fail("there are elements of type " + std::to_string(type) +
              "; only points, lines, linear triangles and linear tetrahedra are read");
   }
-  void add_element(int type, const std::array<std::uint64_t, 4>& vertices, local_id tag, local_id partition) {
-    if (type == static_cast<int>(msh_type::triangle)) {
+  /// The numbers of an element's nodes, as many as it has.
+  using node_numbers = std::array<std::uint64_t, quadratic_nodes<3>>;
+
+  void add_element(int type, const node_numbers& vertices, local_id tag, local_id partition) {
+    switch (static_cast<msh_type>(type)) {
+    case msh_type::quadratic_triangle:
+      add_middles<2>(vertices, triangle_middles_);
+      [[fallthrough]];
+    case msh_type::triangle:
       triangles_.push_back({vertices[0], vertices[1], vertices[2]});
       mesh_.triangle_tags.push_back(tag_of(tag));
       partitions_of_triangles_.push_back(partition);
-    } else if (type == static_cast<int>(msh_type::tetrahedron)) {
-      tetrahedra_.push_back(vertices);
+      break;
+    case msh_type::quadratic_tetrahedron:
+      add_middles<3>(vertices, middles_);
+      [[fallthrough]];
+    case msh_type::tetrahedron:
+      tetrahedra_.push_back({vertices[0], vertices[1], vertices[2], vertices[3]});
       mesh_.mesh.tags.push_back(tag_of(tag));
       partitions_.push_back(partition);
-    } else {
+      break;
+    default:
       mesh_.pass_over("points and lines as elements");
     }
+  }
+  template <int D>
+  static void add_middles(const node_numbers& vertices,
+                          std::vector<std::array<std::uint64_t, edges_per_element<D>>>& middles) {
+    auto& of_edges = middles.emplace_back();
+    for (std::size_t k = D + 1; k < quadratic_nodes<D>; ++k)
+      of_edges[numbering::gmsh_nodes<D>[k] - (D + 1)] = vertices[k];
   }
 
   /// Node data of one component per node are kept; those of more are passed over.
@@ -339,11 +360,14 @@ private:
   void translate_nodes() {
     const node_lookup nodes(numbers_, at_);
     const auto index = [&](std::uint64_t number) { return nodes.index(number); };
-    for (const auto& vertices : tetrahedra_)
-      mesh_.mesh.elements.push_back(
-          {index(vertices[0]), index(vertices[1]), index(vertices[2]), index(vertices[3])});
-    for (const auto& vertices : triangles_)
-      mesh_.triangles.push_back({index(vertices[0]), index(vertices[1]), index(vertices[2])});
+    const auto translate = [&](const auto& all, auto& to) {
+      for (const auto& vertices : all)
+        std::transform(vertices.begin(), vertices.end(), to.emplace_back().begin(), index);
+    };
+    translate(tetrahedra_, mesh_.mesh.elements);
+    translate(triangles_, mesh_.triangles);
+    translate(middles_, mesh_.middles);
+    translate(triangle_middles_, mesh_.triangle_middles);
     for (const auto number : numbers_) // global numbers count from 0, those of MSH from 1
       mesh_.node_ids.push_back(static_cast<global_id>(number) - 1);
     mesh_.subdomains = subdomains_of(partitions_);
@@ -373,6 +397,7 @@ private:
 
   file_cursor at_;
   msh_decoder in_;
+  element_order elements_;
   double version_ = 0;
   bool has_nodes_ = false;
   bool has_elements_ = false;
@@ -382,6 +407,8 @@ private:
   std::vector<std::uint64_t> numbers_;                    ///< of the nodes, in the order of the points
   std::vector<std::array<std::uint64_t, 4>> tetrahedra_;
   std::vector<std::array<std::uint64_t, 3>> triangles_;
+  std::vector<std::array<std::uint64_t, edges_per_element<3>>> middles_; ///< of tetrahedra
+  std::vector<std::array<std::uint64_t, edges_per_element<2>>> triangle_middles_;
   std::vector<local_id> partitions_;              ///< per tetrahedron
   std::vector<local_id> partitions_of_triangles_; ///< per triangle
   std::vector<node_data> node_data_;
@@ -395,9 +422,11 @@ private:
 /// from 1; likewise `subdomains` is the partition and `node_ids` the node number, less one. Of a file that
 /// has one part of a mesh it reads that part; elements that are ghosts in it are left out.
 struct msh_reader {
+  element_order elements = element_order::first; ///< which elements to take
+
   loaded_mesh operator()(const std::filesystem::path& file) const {
     const auto content = read_file(file);
-    return detail::msh_parser(content, file.string()).parse();
+    return detail::msh_parser(content, file.string(), elements).parse();
   }
 };
 

@@ -29,7 +29,9 @@ std::filesystem::path find_mesh_file(const std::filesystem::path& path);
 /// \param path a file, or a folder with one
 /// \param expand expands compressed arrays, or none
 /// \param fields whether all fields of VTU, PVTU and VTP files are read, as `vtu_reader` says
-loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand = nullptr, bool fields = false);
+/// \param elements whether elements of second order are taken
+loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand = nullptr, bool fields = false,
+                      element_order elements = element_order::first);
 
 /// The files that `read_mesh` reads: of a PVTU file its pieces too, of an MSH file of one part those of all
 /// parts. Throws `input_error`.
@@ -46,7 +48,8 @@ std::string points_elsewhere(std::uint64_t points, global_id highest);
 /// possible, after any number of calls: for other files, and for pieces without tetrahedra or without global
 /// numbers. Throws what `read_mesh` throws.
 bool for_each_piece_file(const std::filesystem::path& path, vtk_expander expand,
-                         const std::function<void(const loaded_mesh&, const std::filesystem::path&)>& f);
+                         const std::function<void(const loaded_mesh&, const std::filesystem::path&)>& f,
+                         element_order elements = element_order::first);
 
 } // namespace dovetail::io
 

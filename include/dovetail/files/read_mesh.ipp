@@ -78,12 +78,13 @@ DOVETAIL_INLINE std::filesystem::path find_mesh_file(const std::filesystem::path
   return found.front();
 }
 
-DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand, bool fields) {
+DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_expander expand, bool fields,
+                                      element_order elements) {
   const auto file = find_mesh_file(path);
   const auto start = read_file(file, 256);
   if (start.find("$MeshFormat") != std::string::npos) {
-    loaded_mesh read = msh_reader{}(file);
-    return read.is_one_part() ? detail::read_all_parts(file, std::move(read)) : read;
+    loaded_mesh read = msh_reader{elements}(file);
+    return read.is_one_part() ? detail::read_all_parts(file, std::move(read), elements) : read;
   }
   if (const std::string format = detail::unread_format(start); !format.empty())
     throw input_error(
@@ -92,7 +93,7 @@ DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_exp
   if (start.find("\"UnstructuredGrid\"") != std::string::npos)
     detail::refuse_one_piece(file);
   if (start.find("<?xml") != std::string::npos || start.find("<VTKFile") != std::string::npos)
-    return vtu_reader{expand, fields}(file);
+    return vtu_reader{expand, fields, elements}(file);
   throw input_error(file.string() + ": this is no mesh file that is known: neither VTU, PVTU, VTP nor MSH");
 }
 
@@ -101,7 +102,7 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> files_of_mesh(const std::file
   const auto& file = files.front();
   const auto start = read_file(file, 256);
   if (start.find("$MeshFormat") != std::string::npos && detail::names_partitions(file)) {
-    const loaded_mesh part = msh_reader{}(file);
+    const loaded_mesh part = msh_reader{element_order::any}(file);
     return part.is_one_part() ? detail::files_of_parts(file, part) : files;
   }
   if (start.find("\"PUnstructuredGrid\"") == std::string::npos)
@@ -136,7 +137,8 @@ DOVETAIL_INLINE std::string points_elsewhere(const loaded_mesh& mesh) {
 
 DOVETAIL_INLINE bool
 for_each_piece_file(const std::filesystem::path& path, vtk_expander expand,
-                    const std::function<void(const loaded_mesh&, const std::filesystem::path&)>& f) {
+                    const std::function<void(const loaded_mesh&, const std::filesystem::path&)>& f,
+                    element_order elements) {
   const auto file = find_mesh_file(path);
   const auto start = read_file(file, 256);
   const auto merged = [](loaded_mesh& piece, const std::filesystem::path& source) {
@@ -149,7 +151,7 @@ for_each_piece_file(const std::filesystem::path& path, vtk_expander expand,
   if (start.find("$MeshFormat") != std::string::npos) {
     if (!detail::names_partitions(file))
       return false;
-    loaded_mesh known = msh_reader{}(file);
+    loaded_mesh known = msh_reader{elements}(file);
     if (!known.is_one_part() || known.mesh.elements.empty())
       return false;
     const auto files = detail::files_of_parts(file, known);
@@ -157,7 +159,7 @@ for_each_piece_file(const std::filesystem::path& path, vtk_expander expand,
     for (std::size_t p = 0; p < files.size(); ++p) {
       const auto number = static_cast<local_id>(p);
       loaded_mesh piece =
-          number == part ? std::exchange(known, {}) : detail::read_part(files[p], number, parts);
+          number == part ? std::exchange(known, {}) : detail::read_part(files[p], number, parts, elements);
       merged(piece, files[p]);
       f(piece, files[p]);
     }
@@ -167,7 +169,7 @@ for_each_piece_file(const std::filesystem::path& path, vtk_expander expand,
     return false;
   const auto content = read_file(file);
   for (const auto& source : detail::pvtu_sources(file, xml_parser(content, file.string()).parse())) {
-    loaded_mesh piece = vtu_reader{expand}(source);
+    loaded_mesh piece = vtu_reader{expand, false, elements}(source);
     if (piece.mesh.elements.empty() || piece.node_ids.empty())
       return false;
     merged(piece, source);

@@ -29,6 +29,7 @@ std::vector<std::filesystem::path> pvtu_sources(const std::filesystem::path& fil
 struct vtu_reader {
   vtk_expander expand = nullptr; ///< of compressed arrays: `zlib_expand`, or null when there are none
   bool fields = false;           ///< whether to read `point_fields` and `element_fields`
+  element_order elements = element_order::first; ///< which elements to take
 
   loaded_mesh operator()(const std::filesystem::path& file) const;
 };

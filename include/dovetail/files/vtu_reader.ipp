@@ -6,12 +6,14 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/xml_tree.hpp"
 #include "dovetail/files/merge_points.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/files/vtk_arrays.hpp"
 #include "dovetail/files/vtu_fields.hpp"
 #include "dovetail/files/vtu_reader.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +31,14 @@ namespace dovetail::io {
 namespace detail {
 
 /// VTK's numbers of cell types that are read, and of some that are named in errors.
-enum class vtk_cell { vertex = 1, line = 3, triangle = 5, tetrahedron = 10 };
+enum class vtk_cell {
+  vertex = 1,
+  line = 3,
+  triangle = 5,
+  tetrahedron = 10,
+  quadratic_triangle = 22,
+  quadratic_tetrahedron = 24
+};
 
 inline std::string vtk_cell_name(int type) {
   switch (type) {
@@ -92,8 +101,8 @@ class vtu_piece_reader {
 public:
   /// Fields are read where there is a reader for them.
   vtu_piece_reader(const xml_element& piece, const vtk_encoding& encoding, loaded_mesh& mesh,
-                   vtu_field_reader* fields)
-      : piece_(piece), encoding_(encoding), mesh_(mesh), fields_(fields),
+                   vtu_field_reader* fields, element_order elements)
+      : piece_(piece), encoding_(encoding), mesh_(mesh), fields_(fields), elements_(elements),
         points_(count_attribute(piece, "NumberOfPoints")),
         is_of_polygons_(!piece.attribute("NumberOfPolys").empty()),
         cells_(count_attribute(piece, is_of_polygons_ ? "NumberOfPolys" : "NumberOfCells")),
@@ -211,15 +220,15 @@ private:
       if (!ghosts.empty() && (ghosts[c] & duplicate) != 0)
         continue;
       const auto type = is_of_polygons_ ? vtk_cell::triangle : static_cast<vtk_cell>(types[c]);
-      if (type == vtk_cell::tetrahedron) {
+      if (type == vtk_cell::tetrahedron || (takes_quadratic() && type == vtk_cell::quadratic_tetrahedron)) {
         tetrahedra.push_back(c);
-        mesh_.mesh.elements.push_back(simplex_of<3>(vertices, c));
+        add_cell<3>(vertices, c, type != vtk_cell::tetrahedron, mesh_.mesh.elements, mesh_.middles);
         mesh_.mesh.tags.push_back(materials.empty() ? 0 : materials[c]);
         if (!subdomains.empty())
           mesh_.subdomains.push_back(subdomains[c]);
-      } else if (type == vtk_cell::triangle) {
+      } else if (type == vtk_cell::triangle || (takes_quadratic() && type == vtk_cell::quadratic_triangle)) {
         triangles.push_back(c);
-        mesh_.triangles.push_back(simplex_of<2>(vertices, c));
+        add_cell<2>(vertices, c, type != vtk_cell::triangle, mesh_.triangles, mesh_.triangle_middles);
         mesh_.triangle_tags.push_back(cad_faces.empty() ? 0 : cad_faces[c]);
         if (!subdomains.empty() && !is_of_polygons_) // of a skeleton it is the one behind
           mesh_.triangle_subdomains.push_back(subdomains[c]);
@@ -235,25 +244,30 @@ private:
     if (fields_ != nullptr)
       fields_->read_cells(piece_.child("CellData"), encoding_, cells_, tetrahedra, triangles);
   }
+  bool takes_quadratic() const { return elements_ == element_order::any; }
   template <int D>
-  simplex<D> simplex_of(std::span<const std::int64_t> vertices, std::size_t cell) const {
-    simplex<D> result;
-    if (vertices.size() != result.size())
+  void add_cell(std::span<const std::int64_t> vertices, std::size_t cell, bool quadratic,
+                std::vector<simplex<D>>& elements,
+                std::vector<std::array<local_id, edges_per_element<D>>>& middles) const {
+    const std::size_t count = quadratic ? quadratic_nodes<D> : D + 1;
+    quadratic_simplex<D> nodes{};
+    if (vertices.size() != count)
       throw input_error("cell " + std::to_string(cell) + " has " + std::to_string(vertices.size()) +
-                        " points instead of " + std::to_string(result.size()));
-    for (std::size_t k = 0; k < result.size(); ++k) {
+                        " points instead of " + std::to_string(count));
+    for (std::size_t k = 0; k < count; ++k) {
       if (vertices[k] < 0 || static_cast<std::uint64_t>(vertices[k]) >= points_)
         throw input_error("cell " + std::to_string(cell) + " refers to point " + std::to_string(vertices[k]) +
                           " of " + std::to_string(points_));
-      result[k] = first_point_ + static_cast<local_id>(vertices[k]);
+      nodes[k] = first_point_ + static_cast<local_id>(vertices[k]);
     }
-    return result;
+    append_element<D>(nodes, quadratic, elements, middles);
   }
 
   const xml_element& piece_;
   const vtk_encoding& encoding_;
   loaded_mesh& mesh_;
   vtu_field_reader* fields_;
+  element_order elements_;
   std::uint64_t points_;
   bool is_of_polygons_;
   std::uint64_t cells_;
@@ -284,16 +298,16 @@ inline std::vector<std::string> field_strings(const xml_element& grid, std::stri
 }
 
 /// Appends the pieces of one VTU or VTP file to a mesh.
-inline void append_vtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
+inline void append_vtu(const std::filesystem::path& file, const xml_element& root, const vtu_reader& how,
                        loaded_mesh& mesh, vtu_field_reader* fields) {
   try {
-    const auto encoding = read_vtk_encoding(root, expand);
+    const auto encoding = read_vtk_encoding(root, how.expand);
     const auto& grid = required_child(root, root.attribute("type"));
     bool found = false;
     const char* names_of_triangles = "patch_names";
     for (const auto& piece : grid.children)
       if (piece.name == "Piece") {
-        vtu_piece_reader(piece, encoding, mesh, fields).read();
+        vtu_piece_reader(piece, encoding, mesh, fields, how.elements).read();
         found = true;
         if (find_array(piece.child("CellData"), "cad_face"))
           names_of_triangles = "face_names";
@@ -328,12 +342,12 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> pvtu_sources(const std::files
   return sources;
 }
 
-inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, vtk_expander expand,
+inline void append_pvtu(const std::filesystem::path& file, const xml_element& root, const vtu_reader& how,
                         loaded_mesh& mesh, vtu_field_reader* fields) {
   for (const auto& path : pvtu_sources(file, root)) {
     const auto content = read_file(path);
     const auto piece_root = xml_parser(content, path.string()).parse();
-    append_vtu(path, piece_root, expand, mesh, fields);
+    append_vtu(path, piece_root, how, mesh, fields);
   }
 }
 
@@ -349,9 +363,9 @@ DOVETAIL_INLINE loaded_mesh vtu_reader::operator()(const std::filesystem::path& 
   if (root.name != "VTKFile")
     throw input_error(file.string() + ": this is not a VTK XML file");
   if (type == "UnstructuredGrid" || type == "PolyData")
-    detail::append_vtu(file, root, expand, mesh, of_fields);
+    detail::append_vtu(file, root, *this, mesh, of_fields);
   else if (type == "PUnstructuredGrid")
-    detail::append_pvtu(file, root, expand, mesh, of_fields);
+    detail::append_pvtu(file, root, *this, mesh, of_fields);
   else
     throw input_error(file.string() + ": this VTK file has a " + std::string(type) +
                       "; an UnstructuredGrid, PUnstructuredGrid or PolyData is needed");

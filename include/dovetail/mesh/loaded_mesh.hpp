@@ -2,9 +2,11 @@
 /// A mesh as it is read from a file, with what else the file says about it.
 #pragma once
 
+#include "dovetail/mesh/quadratic_element.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -30,6 +32,12 @@ struct mesh_field {
 /// is in the file.
 inline constexpr std::size_t most_point_arrays = 256;
 
+/// Which elements a reader takes.
+enum class element_order {
+  first, ///< others are refused
+  any    ///< of second order too, whose `middles` it gives
+};
+
 /// The simplices of a file, on one set of points.
 struct loaded_mesh {
   simplicial_mesh<3> mesh;             ///< tags: the material of each tetrahedron, 0 when the file has none
@@ -48,6 +56,10 @@ struct loaded_mesh {
   local_id parts_here = 0;                    ///< of these, which have elements in the file
   local_id first_part = no_id;                ///< the lowest of them, from 0
   std::vector<std::filesystem::path> files{}; ///< that it was read from, where each has a part
+  /// Per tetrahedron of second order: the points in the middle of its edges, in the order of
+  /// `numbering::edges<3>`. Empty where elements are of first order.
+  std::vector<std::array<local_id, edges_per_element<3>>> middles{};
+  std::vector<std::array<local_id, edges_per_element<2>>> triangle_middles{}; ///< the same of triangles
 
   /// Whether this is one part of a mesh whose others are in other files.
   bool is_one_part() const { return parts > 1 && parts_here == 1; }

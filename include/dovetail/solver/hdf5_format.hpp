@@ -8,6 +8,7 @@
 #include "dovetail/files/hdf5_slices.hpp"
 #include "dovetail/files/vtk_xml_output.hpp"
 #include "dovetail/files/xdmf_index.hpp"
+#include "dovetail/mesh/global_numbering.hpp"
 #include "dovetail/mesh/mid_nodes.hpp"
 #include "dovetail/solver/concepts.hpp"
 
@@ -57,7 +58,9 @@ struct xdmf_format {
     if constexpr (D == 3) { // sides of triangles are on curves, which have no groups
       file.create_in_place<local_id>("sides/patch", sides);
       file.add("names/patches", collect_face_groups(source.mesh).names);
+      file.add("names/faces", source.mesh.face_names);
     }
+    file.add("pieces/first_element", number_nodes(source.mesh).first_element);
     file.add("names/regions", names_of_tags(source.mesh));
     file.close();
     write_xdmf(paths.back(), detail::xdmf_topology<D>(source.mesh.mid_nodes != nullptr), vertices, elements,

@@ -6,9 +6,11 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/files/hdf5_input.hpp"
 #include "dovetail/files/piece_visitor.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/files/xdmf_input.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,15 +31,17 @@ namespace detail {
 /// Reads the arrays into one mesh.
 class hdf5_rank_arrays {
 public:
-  explicit hdf5_rank_arrays(const std::filesystem::path& path) : file_(path) {
+  hdf5_rank_arrays(const std::filesystem::path& path, element_order elements) : file_(path) {
     const auto cells = file_.extent_of(cells_name);
-    if (cells.columns == 10 || cells.columns == 6)
+    const bool quadratic = cells.columns == quadratic_nodes<3> || cells.columns == quadratic_nodes<2>;
+    if (quadratic && elements == element_order::first)
       file_.fail(cells_name, "elements of second order are not read, and without --order 2 they are of first "
                              "order");
-    if (cells.columns != 4 && cells.columns != 3)
+    if (!quadratic && cells.columns != 4 && cells.columns != 3)
       file_.fail(cells_name, "elements of " + std::to_string(cells.columns) + " vertices are not read");
-    corners_ = cells.columns;
-    elements_ = file_.require_stored(cells_name, corners_, sizeof(global_id)).rows;
+    nodes_ = cells.columns;
+    corners_ = nodes_ == 4 || nodes_ == quadratic_nodes<3> ? 4 : 3;
+    elements_ = file_.require_stored(cells_name, nodes_, sizeof(global_id)).rows;
     vertices_ = file_.require_stored("geometry/vertices", 3, sizeof(double)).rows;
     sides_ = file_.require_stored("sides/vertices", corners_ - 1, sizeof(global_id)).rows;
     for (const std::uint64_t count : {elements_, vertices_, sides_})
@@ -52,7 +56,7 @@ public:
 
   loaded_mesh read() {
     mesh_.node_ids = numbers("vertices/mesh_node", vertices_);
-    numbers("cells/mesh_element", elements_);
+    const auto elements = numbers("cells/mesh_element", elements_);
     const auto values = file_.read<double>("geometry/vertices", 0, vertices_);
     for (std::size_t v = 0; v < vertices_; ++v) {
       mesh_.mesh.points.push_back({values[3 * v], values[3 * v + 1], values[3 * v + 2]});
@@ -61,19 +65,18 @@ public:
         file_.fail("geometry/vertices", "a coordinate of vertex " + std::to_string(v) + " is not finite");
     }
     auto tags = array("cells/region", elements_, file_.extent_of("names/regions").rows);
-    auto subdomains = array("cells/subdomain", elements_, std::numeric_limits<local_id>::max());
+    auto subdomains = array("cells/subdomain", elements_, any_number);
+    check_subdomains(elements, subdomains);
     if (corners_ == 4) {
-      mesh_.mesh.elements = simplices<3>(cells_name, elements_);
+      read_elements<3>(mesh_.mesh.elements, mesh_.middles);
       mesh_.mesh.tags = std::move(tags);
       mesh_.subdomains = std::move(subdomains);
-      check_owners(mesh_.mesh.elements);
       check_sides();
     } else {
-      mesh_.triangles = simplices<2>(cells_name, elements_);
+      read_elements<2>(mesh_.triangles, mesh_.triangle_middles);
       mesh_.triangle_tags = std::move(tags);
       mesh_.triangle_subdomains = std::move(subdomains);
-      check_owners(mesh_.triangles);
-      simplices<1>("sides/vertices", sides_);
+      vertices_of<2>("sides/vertices", sides_);
     }
     return std::move(mesh_);
   }
@@ -94,6 +97,12 @@ public:
 
 private:
   static constexpr const char* cells_name = "viz/topology/cells";
+  static constexpr const char* pieces_name = "pieces/first_element";
+  static constexpr std::uint64_t any_number = std::numeric_limits<local_id>::max();
+
+  std::uint64_t rows_or(const std::string& name, std::uint64_t otherwise) const {
+    return file_.has(name) ? file_.extent_of(name).rows : otherwise;
+  }
 
   std::vector<global_id> starts(const std::string& name, std::uint64_t end) const {
     auto firsts = file_.read_list<global_id>(name);
@@ -123,17 +132,48 @@ private:
                              ", and there are " + std::to_string(end));
     return values;
   }
-  template <int D>
-  std::vector<simplex<D>> simplices(const std::string& name, std::uint64_t count) const {
+  /// Rows of N vertices each.
+  template <std::size_t N>
+  std::vector<std::array<local_id, N>> vertices_of(const std::string& name, std::uint64_t count) const {
     const auto ids = file_.read<global_id>(name, 0, count);
-    std::vector<simplex<D>> result(count);
+    std::vector<std::array<local_id, N>> result(count);
     for (std::size_t i = 0; i < ids.size(); ++i) {
       if (ids[i] < 0 || static_cast<std::uint64_t>(ids[i]) >= vertices_)
-        file_.fail(name, "row " + std::to_string(i / (D + 1)) + " has the vertex " + std::to_string(ids[i]) +
+        file_.fail(name, "row " + std::to_string(i / N) + " has the vertex " + std::to_string(ids[i]) +
                              ", and there are " + std::to_string(vertices_));
-      result[i / (D + 1)][i % (D + 1)] = static_cast<local_id>(ids[i]);
+      result[i / N][i % N] = static_cast<local_id>(ids[i]);
     }
     return result;
+  }
+  template <int D>
+  void read_elements(std::vector<simplex<D>>& elements,
+                     std::vector<std::array<local_id, edges_per_element<D>>>& middles) const {
+    if (nodes_ == corners_) {
+      elements = vertices_of<D + 1>(cells_name, elements_);
+      return check_owners(elements);
+    }
+    const auto nodes = vertices_of<quadratic_nodes<D>>(cells_name, elements_);
+    check_owners(nodes);
+    for (const auto& of_element : nodes)
+      append_element<D>(of_element, true, elements, middles);
+  }
+
+  /// An element is of the subdomain that has its number. Older files have no table of that.
+  void check_subdomains(const std::vector<global_id>& elements,
+                        const std::vector<local_id>& subdomains) const {
+    if (!file_.has(pieces_name))
+      return;
+    const auto first = file_.read_list<global_id>(pieces_name);
+    const auto of_piece = [&](global_id element) {
+      return static_cast<std::ptrdiff_t>(std::upper_bound(first.begin(), first.end(), element) -
+                                         first.begin()) -
+             1;
+    };
+    for (std::size_t e = 0; e < elements.size(); ++e)
+      if (of_piece(elements[e]) != subdomains[e])
+        file_.fail("cells/subdomain", "entry " + std::to_string(e) + " is " + std::to_string(subdomains[e]) +
+                                          ", and by its number the element is of " +
+                                          std::to_string(of_piece(elements[e])));
   }
 
   /// The lowest rank that has an element at a vertex owns it.
@@ -154,8 +194,8 @@ private:
 
   /// Each is a side of an element of its rank, turned outwards of one.
   void check_sides() {
-    mesh_.triangles = simplices<2>("sides/vertices", sides_);
-    mesh_.triangle_tags = array("sides/cad", sides_, std::numeric_limits<local_id>::max());
+    mesh_.triangles = vertices_of<3>("sides/vertices", sides_);
+    mesh_.triangle_tags = array("sides/cad", sides_, rows_or("names/faces", any_number));
     array("sides/patch", sides_, file_.extent_of("names/patches").rows);
     const auto table = build_sides(mesh_.mesh);
     const auto fail = [&](std::size_t s, const std::string& what) {
@@ -185,7 +225,8 @@ private:
 
   hdf5_input file_;
   loaded_mesh mesh_;
-  std::uint64_t corners_ = 0, elements_ = 0, vertices_ = 0, sides_ = 0;
+  std::uint64_t nodes_ = 0, corners_ = 0; ///< per element
+  std::uint64_t elements_ = 0, vertices_ = 0, sides_ = 0;
   std::vector<global_id> first_vertex_, first_cell_, first_side_; ///< per rank, and the end
 };
 
@@ -196,14 +237,16 @@ private:
 /// it has to own, and sides on the CAD model, the triangles of the result, sides of its elements.
 ///
 /// Throws `input_error` naming the file and the dataset for whatever is not so, and for elements of second
-/// order. n log n. Memory: the whole mesh.
+/// order unless they are asked for. n log n. Memory: the whole mesh.
 /// \param file either of the two
-inline loaded_mesh read_hdf5_ranks(const std::filesystem::path& file) {
+/// \param elements whether elements of second order are taken
+inline loaded_mesh read_hdf5_ranks(const std::filesystem::path& file,
+                                   element_order elements = element_order::first) {
   auto arrays = file, index = file;
   arrays.replace_extension(".h5");
   index.replace_extension(".xdmf");
   std::error_code failure;
-  detail::hdf5_rank_arrays input(arrays);
+  detail::hdf5_rank_arrays input(arrays, elements);
   if (file == index || std::filesystem::exists(index, failure))
     input.check_index(index);
   loaded_mesh mesh = input.read();

@@ -22,11 +22,14 @@ std::vector<std::filesystem::path> files_of_mfem(const std::filesystem::path& fi
 /// Every group of ranks must share the same vertices, edges and faces in the same order and at the same
 /// places, and all that its ranks have in common; boundary elements must be sides of elements, each once.
 ///
-/// Throws `input_error` that names file and line, or the entity, for whatever is not so, and for elements
-/// that are no tetrahedra of first order. About linear; memory: a piece, and what ranks share.
+/// Throws `input_error` that names file and line, or the entity, for whatever is not so, for elements that
+/// are no tetrahedra, and for those of second order unless they are asked for. About linear; memory: a piece,
+/// and what ranks share.
 /// \param file of any rank
 /// \param f takes the pieces
-void for_each_mfem_piece(const std::filesystem::path& file, const piece_visitor& f);
+/// \param elements whether elements of second order are taken
+void for_each_mfem_piece(const std::filesystem::path& file, const piece_visitor& f,
+                         element_order elements = element_order::first);
 
 /// The whole mesh of these files. Throws what `for_each_mfem_piece` throws. n log n.
 /// \param file of any rank

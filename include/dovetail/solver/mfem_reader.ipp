@@ -40,6 +40,7 @@ public:
       compare(part.piece, shared, table);
     add_entities(part, table);
     add_boundary(part.piece, table);
+    number_middles(part);
   }
 
   /// When all parts are there.
@@ -66,6 +67,7 @@ private:
     std::size_t listed = 0; ///< by how many of its ranks
     std::vector<global_id> vertices{};
     std::vector<vec3> places{};
+    std::vector<std::pair<global_id, vec3>> middles{}; ///< of the edges, and where each is
     std::vector<std::array<global_id, 2>> edges{};
     std::vector<std::array<global_id, 3>> faces{};
   };
@@ -130,9 +132,32 @@ private:
       }
       ++known.listed;
     }
-    for (global_id& id : ids)
-      if (id < 0)
-        id = next_++;
+    number_rest(ids, ids.size() - part.middles.size());
+  }
+
+  void number_rest(std::vector<global_id>& ids, std::size_t end) {
+    for (std::size_t v = 0; v < end; ++v)
+      if (ids[v] < 0)
+        ids[v] = next_++;
+  }
+
+  /// The middles of edges, of which those that are shared have been compared.
+  void number_middles(mfem_part& part) {
+    auto& ids = part.piece.node_ids;
+    for (const auto& shared : part.groups) {
+      group& known = groups_.at(shared.ranks);
+      for (std::size_t i = 0; !part.middles.empty() && i < shared.edges.size(); ++i) {
+        const local_id v = part.middles[find_edge(part.edges, shared.edges[i])];
+        const vec3 place = part.piece.mesh.points[v];
+        if (known.listed == 1)
+          known.middles.emplace_back(next_++, place);
+        else if (i >= known.middles.size() || known.middles[i].second != place)
+          fail("the middle of shared edge " + std::to_string(i) + " of " + name_of(shared.ranks) +
+               " is not where rank " + std::to_string(shared.ranks.front()) + " has it");
+        ids[v] = known.middles[i].first;
+      }
+    }
+    number_rest(ids, ids.size());
   }
 
   void compare(const loaded_mesh& piece, const mfem_shared& shared, const side_table<3>& table) {
@@ -257,11 +282,13 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> files_of_mfem(const std::file
   return files;
 }
 
-DOVETAIL_INLINE void for_each_mfem_piece(const std::filesystem::path& file, const piece_visitor& f) {
+DOVETAIL_INLINE void for_each_mfem_piece(const std::filesystem::path& file, const piece_visitor& f,
+                                         element_order elements) {
   const auto files = files_of_mfem(file);
   detail::mfem_joint joint(files);
   for (std::size_t rank = 0; rank < files.size(); ++rank) {
-    detail::mfem_part part = detail::read_mfem_part(files[rank], static_cast<local_id>(rank), files.size());
+    detail::mfem_part part =
+        detail::read_mfem_part(files[rank], static_cast<local_id>(rank), files.size(), elements);
     joint.add(part);
     detail::order_points(part.piece, files[rank]);
     f(part.piece, files[rank]);

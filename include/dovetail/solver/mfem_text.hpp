@@ -4,6 +4,7 @@
 
 #include "dovetail/core/input_file.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
+#include "dovetail/mesh/quadratic_element.hpp"
 
 #include <algorithm>
 #include <array>
@@ -91,7 +92,9 @@ struct mfem_shared {
 /// What a rank's file has; vertices by its own numbers.
 struct mfem_part {
   loaded_mesh piece;
-  std::vector<mfem_shared> groups;
+  std::vector<simplex<1>> edges{}; ///< of second order: each once, as an `edge_table` has them
+  std::vector<local_id> middles{}; ///< the point in the middle of each
+  std::vector<mfem_shared> groups{};
 };
 
 inline local_id mfem_attribute(mfem_text& text, const std::vector<std::pair<local_id, std::string>>& names) {
@@ -117,8 +120,42 @@ inline void expect_mfem_kind(mfem_text& text, int kind, const char* name) {
               std::to_string(kind) + ", are read");
 }
 
+/// Refuses elements or boundary elements with vertices that are not there.
+template <class Simplices>
+void check_mfem_vertices(const mfem_text& text, const Simplices& simplices, std::size_t vertices,
+                         const std::string& of_what) {
+  for (std::size_t i = 0; i < simplices.size(); ++i)
+    for (const local_id v : simplices[i])
+      if (static_cast<std::size_t>(v) >= vertices)
+        text.fail(of_what + " " + std::to_string(i) + " has the vertex " + std::to_string(v) +
+                  ", and there are " + std::to_string(vertices));
+}
+
+/// The head of the nodes of second order.
+inline void expect_mfem_nodes(mfem_text& text) {
+  for (const char* word :
+       {"FiniteElementSpace", "FiniteElementCollection:", "H1_3D_P2", "VDim:", "3", "Ordering:", "1"})
+    text.expect(word);
+}
+
+/// Numbers the middles of edges as MFEM does: behind the vertices, as they come in the elements.
+inline void number_mfem_middles(mfem_part& part, std::size_t vertices) {
+  auto table = build_edges<3>(span_of(part.piece.mesh.elements), vertices);
+  part.middles.assign(table.vertices.size(), no_id);
+  auto next = static_cast<local_id>(vertices);
+  for (const auto& edges : table.of_element)
+    for (const std::size_t k : {0u, 2u, 3u, 1u, 4u, 5u}) // MFEM's: 01, 02, 03, 12, 13, 23
+      if (local_id& middle = part.middles[edges[k]]; middle == no_id)
+        middle = next++;
+  for (const auto& edges : table.of_element)
+    std::transform(edges.begin(), edges.end(), part.piece.middles.emplace_back().begin(),
+                   [&](local_id edge) { return part.middles[edge]; });
+  part.edges = std::move(table.vertices);
+}
+
 /// Elements, boundary and vertices.
-inline void read_mfem_mesh(mfem_text& text, loaded_mesh& piece) {
+inline void read_mfem_mesh(mfem_text& text, mfem_part& part, element_order of_elements) {
+  loaded_mesh& piece = part.piece;
   text.expect("dimension");
   if (const auto dimension = text.number<int>(); dimension != 3)
     text.fail("a mesh of dimension " + std::to_string(dimension) + "; only tetrahedra are read");
@@ -136,11 +173,19 @@ inline void read_mfem_mesh(mfem_text& text, loaded_mesh& piece) {
     piece.triangles.push_back(mfem_vertices<3>(text, any));
   }
   const auto vertices = text.count("vertices", 5);
-  if (const auto next = text.word(); next == "nodes")
-    text.fail("nodes of second order are not read; write the mesh without --order 2 to check it");
-  else if (next != "3")
+  const auto next = text.word();
+  const bool quadratic = next == "nodes";
+  if (quadratic && of_elements == element_order::first)
+    text.fail("nodes of second order are not read; write the mesh without --order 2 to read it");
+  if (!quadratic && next != "3")
     text.fail("vertices have three coordinates, not '" + std::string(next.substr(0, 40)) + "'");
-  for (std::size_t v = 0; v < vertices; ++v) {
+  check_mfem_vertices(text, piece.mesh.elements, vertices, "element");
+  check_mfem_vertices(text, piece.triangles, vertices, "boundary element");
+  if (quadratic) {
+    expect_mfem_nodes(text);
+    number_mfem_middles(part, vertices);
+  }
+  for (std::size_t v = 0; v < vertices + part.middles.size(); ++v) {
     vec3 p;
     for (int axis = 0; axis < 3; ++axis) {
       p[axis] = text.number<double>();
@@ -149,15 +194,6 @@ inline void read_mfem_mesh(mfem_text& text, loaded_mesh& piece) {
     }
     piece.mesh.points.push_back(p);
   }
-  const auto check = [&](const auto& simplices, const char* of_what) {
-    for (std::size_t i = 0; i < simplices.size(); ++i)
-      for (const local_id v : simplices[i])
-        if (static_cast<std::size_t>(v) >= vertices)
-          text.fail(std::string(of_what) + " " + std::to_string(i) + " has the vertex " + std::to_string(v) +
-                    ", and there are " + std::to_string(vertices));
-  };
-  check(piece.mesh.elements, "element");
-  check(piece.triangles, "boundary element");
   piece.material_names = text.element_names;
   piece.triangle_names = text.boundary_names;
 }
@@ -223,7 +259,8 @@ inline std::vector<mfem_shared> read_mfem_groups(mfem_text& text, local_id rank,
   return groups;
 }
 
-inline mfem_part read_mfem_part(const std::filesystem::path& file, local_id rank, std::size_t of) {
+inline mfem_part read_mfem_part(const std::filesystem::path& file, local_id rank, std::size_t of,
+                                element_order elements) {
   const std::string content = read_file(file);
   mfem_text text(content, file.string());
   const auto kind = text.word();
@@ -232,9 +269,9 @@ inline mfem_part read_mfem_part(const std::filesystem::path& file, local_id rank
         "it does not begin with 'MFEM mesh v1.2', a parallel mesh of conforming elements; write it with "
         "--format mfem");
   mfem_part part;
-  read_mfem_mesh(text, part.piece);
+  read_mfem_mesh(text, part, elements);
   text.expect("mfem_serial_mesh_end");
-  part.groups = read_mfem_groups(text, rank, of, part.piece.mesh.points.size());
+  part.groups = read_mfem_groups(text, rank, of, part.piece.mesh.points.size() - part.middles.size());
   text.expect("mfem_mesh_end");
   part.piece.parts = static_cast<local_id>(of);
   part.piece.parts_here = 1;

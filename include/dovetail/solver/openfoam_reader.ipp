@@ -327,6 +327,8 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> folders_of_openfoam(const std
     folder = folder.parent_path();
   if (!std::filesystem::is_directory(folder, failure))
     folder = folder.parent_path();
+  if (folder.filename() == "constant" && std::filesystem::is_directory(folder / "polyMesh", failure))
+    folder /= "polyMesh";
   const bool is_given = folder.filename() == "polyMesh";
   if (is_given)
     folder = folder.parent_path().parent_path();
