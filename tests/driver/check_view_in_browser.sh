@@ -53,6 +53,7 @@ node "$(dirname "$0")/browser_shots.js" "$browser" "$sandbox" $middle 500,350 65
   >"$sandbox/stdout" 2>"$sandbox/stderr" <<LIST
 red file://$inputs/red.html
 plain file://$inputs/mesh.html#$plain
+resized file://$inputs/mesh.html#$plain 720 700
 cut file://$inputs/mesh.html#$plain&cut=x
 flipped file://$inputs/mesh.html#$plain&cut=x&flip=1
 angles file://$inputs/mesh.html#$plain&colours=angle
@@ -79,6 +80,8 @@ pixel glass $middle | awk '{ exit !($1 > 200 && $2 > 200 && $3 > 200 && $1 + $2 
 cmp -s "$sandbox/apart.png" "$sandbox/plain.png" && fault "no piece has moved"
 expect_shade above $middle 108 164 216 # along an axis one side alone is seen
 [[ $(pixel above $middle) == "$(pixel above 600,300)" ]] || fault "a plane side has two shades"
+# In a window that has changed since then the mesh is fitted again.
+cmp -s "$sandbox/resized.png" "$sandbox/plain.png" || fault "the page is another one where the window had another size"
 # A mark is over all that is before it.
 expect_pixel marked $middle "150 50 200"
 expect_shade marked 650,350 108 164 216
