@@ -26,17 +26,29 @@ for mesh in solid solid/mesh.pvtu solid/mesh.msh shell; do
   grep -q "^picture.png: 320 x 200 pixels$" "$sandbox/stdout" || fault "it is not said what was written"
   is_png "$sandbox/work/picture.png" 00000140 000000c8
 done
-# The same mesh in other files is the same picture.
+# The same mesh in other files is the same picture; VTU files have the groups of the surface beside them.
 other_files=("--ranks 1 --redistribute none --format openfoam" "--ranks 1 --redistribute none --format mfem")
 "$driver" mesh --help | grep -q "hdf5" && other_files+=("--format hdf5")
 expect_success view "$inputs/solid/mesh.pvtu" --png picture.png --size 320x200 --cut x --colour angle
 cp "$sandbox/work/picture.png" "$inputs/first.png"
+expect_success view "$inputs/solid/mesh.pvtu" --png picture.png --size 320x200 --colour group
+cp "$sandbox/work/picture.png" "$inputs/groups.png"
+expect_success view "$inputs/solid/mesh.msh" --png picture.png --size 320x200 --colour group
+cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups in MSH"
 for how in "${other_files[@]}"; do
   expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 $how --quiet
   rm -rf "$inputs/other" && mv "$sandbox/work/out" "$inputs/other"
   expect_success view "$inputs/other" --png picture.png --size 320x200 --cut x --colour angle
   cmp "$sandbox/work/picture.png" "$inputs/first.png" || fault "another picture with $how"
+  [[ $how == *hdf5 ]] && continue # which has no groups
+  expect_success view "$inputs/other" --png picture.png --size 320x200 --colour group
+  cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups with $how"
 done
+cp -r "$inputs/solid" "$inputs/alone"
+rm "$inputs/alone/surface.vtp"
+expect_success view "$inputs/alone/mesh.pvtu" --png picture.png --size 320x200 --colour group
+[[ -s $sandbox/stderr ]] && fault "it warns"
+cmp -s "$sandbox/work/picture.png" "$inputs/groups.png" && fault "there are groups without a file of them"
 
 expect_success view "$inputs/shell" --png picture.png --size 320x200
 cp "$sandbox/work/picture.png" "$inputs/first.png"
