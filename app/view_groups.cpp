@@ -58,10 +58,16 @@ std::array<global_id, 3> ascending(std::array<global_id, 3> ids) {
 
 } // namespace
 
-surface_groups surface_groups::beside(const std::filesystem::path& mesh) {
+std::filesystem::path surface_beside(const std::filesystem::path& mesh) {
   const std::filesystem::path file = mesh.parent_path() / "surface.vtp";
   std::error_code failure;
-  if (mesh.extension() != ".pvtu" || !std::filesystem::is_regular_file(file, failure))
+  const bool is_there = mesh.extension() == ".pvtu" && std::filesystem::is_regular_file(file, failure);
+  return is_there ? file : std::filesystem::path();
+}
+
+surface_groups surface_groups::beside(const std::filesystem::path& mesh) {
+  const std::filesystem::path file = surface_beside(mesh);
+  if (file.empty())
     return {};
   try {
     return read(file);

@@ -15,10 +15,14 @@
 
 namespace dovetail::app {
 
-/// The triangles of `surface.vtp`, which `dovetail mesh` writes beside VTU files, with their groups.
+/// The file `surface.vtp` that `dovetail mesh` writes beside a PVTU file; empty where there is none, and of
+/// other files.
+std::filesystem::path surface_beside(const std::filesystem::path& mesh);
+
+/// The triangles of that file with their groups.
 class surface_groups {
 public:
-  /// No triangles where the mesh is no PVTU file, or there is no such file beside it that can be read.
+  /// No triangles where there is no such file, or none that can be read.
   static surface_groups beside(const std::filesystem::path& mesh);
 
   /// Whether a point of the mesh is in the same place here, or not here at all. O(log points).

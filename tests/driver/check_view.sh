@@ -98,6 +98,11 @@ for wrong in "cube.off: it is not valid JSON.*" "missing.json: there is no such 
 done
 
 # What is wrong is said before or instead of a file.
+expect_success view --help
+for format in VTU PVTU VTP MSH HDF5 MFEM OpenFOAM; do
+  grep -q "Mesh file .*\b$format\b" "$sandbox/stdout" || fault "$format is not named"
+done
+expect_usage_error 'MESH' view "$inputs/solid" -o "$inputs/solid/surface.vtp"
 printf 'no mesh at all\n' >"$inputs/text.vtu"
 head -c 3000 "$inputs/solid/mesh.msh" >"$inputs/short.msh"
 mkdir "$inputs/empty"
@@ -111,6 +116,10 @@ expect_usage_error '--view up: give front' view "$inputs/solid" --png p.png --vi
 expect_usage_error '--view 1,x: give' view "$inputs/solid" --png p.png --view 1,x
 expect_usage_error '--size 10: give WxH' view "$inputs/solid" --png p.png --size 10
 expect_usage_error '--size 0x5: give WxH' view "$inputs/solid" --png p.png --size 0x5
+for name in p.jpg p png p.png.txt; do
+  expect_usage_error "--png $name: pictures are written to files with the extension \.png" view "$inputs/solid" --png "$name"
+done
+expect_success view "$inputs/solid" --png P.PNG --size 32x20
 expect_usage_error '--cut w: give' view "$inputs/solid" --png p.png --cut w
 expect_usage_error '--cut x=: give' view "$inputs/solid" --png p.png --cut x=
 expect_usage_error '--under' view "$inputs/solid" --png p.png --under 200
