@@ -4,6 +4,7 @@
 #include "failure.hpp"
 #include "file_place.hpp"
 #include "output.hpp"
+#include "view_groups.hpp"
 
 #include "dovetail/core/output_file.hpp"
 #include "dovetail/files/json_tree.hpp"
@@ -124,6 +125,14 @@ command_inputs inputs_of_mesh(const std::string& option, const std::filesystem::
         inputs.push_back({"a file of " + option, each});
   } catch (const std::exception&) {
   }
+  return inputs;
+}
+
+command_inputs inputs_of_view(const std::string& option, const std::filesystem::path& file) {
+  command_inputs inputs = inputs_of_mesh(option, file);
+  for (const named_file& each : command_inputs(inputs))
+    if (const auto surface = surface_beside(each.file); !surface.empty())
+      inputs.push_back({"a file of " + option, surface});
   return inputs;
 }
 

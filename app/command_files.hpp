@@ -26,6 +26,8 @@ command_inputs inputs_of_model(const model_options& options);
 command_inputs inputs_of_sizing(const std::filesystem::path& file);
 /// A mesh file, with its pieces where it has some.
 command_inputs inputs_of_mesh(const std::string& option, const std::filesystem::path& file);
+/// The same with the file of the surface, where `view` takes groups from one.
+command_inputs inputs_of_view(const std::string& option, const std::filesystem::path& file);
 
 /// Throws `command_line_error` for an output that is an input or another output, by whatever names; that
 /// would be overwritten by what a command writes in its folder; or whose temporary name is one of these.

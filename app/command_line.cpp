@@ -411,7 +411,9 @@ struct parser {
                            "dovetail view wing.msh --png wing.png --cut y --colour piece",
                            "dovetail view wing.msh --png worst.png --under 20 --view 30,20",
                            "dovetail view wing -o wing.html --report wing.json"});
-    command.add_option("MESH", view.mesh, "Mesh file (VTU, PVTU, VTP, MSH), or a folder with one")
+    command
+        .add_option("MESH", view.mesh,
+                    "Mesh file (VTU, PVTU, VTP, MSH, HDF5, MFEM, OpenFOAM), or a folder with one")
         ->required();
     auto* out =
         command.add_option("-o,--out", view.out, "HTML file to write; a browser shows it without a network");
@@ -421,14 +423,14 @@ struct parser {
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{100'000'000}))
         ->needs(out)
         ->capture_default_str();
-    auto* png = command.add_option("--png", view.png, "Picture to write; needs no display");
+    auto* png = command.add_option("--png", view.png, "Picture to write (PNG); needs no display");
     command.add_option(
         "--report", view.report,
         "Report of the run that made the mesh: marks small interface angles and the thinnest wall");
     add_picture_options(command, view, png);
     command.callback([this] {
       chosen = [this] { return run_view(view); };
-      inputs = inputs_of_mesh("MESH", view.mesh);
+      inputs = inputs_of_view("MESH", view.mesh);
       inputs.push_back({"--report", view.report});
       outputs.files = {{"--out", view.out}, {"--png", view.png}};
     });

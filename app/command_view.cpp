@@ -146,6 +146,13 @@ struct asked_picture {
   }
 };
 
+/// Throws `command_line_error`.
+void check_is_png(const std::filesystem::path& file) {
+  if (extension_of(file) != ".png")
+    throw command_line_error("--png " + file.string() +
+                             ": pictures are written to files with the extension .png");
+}
+
 std::string megabytes(std::size_t bytes) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f MB", 1e-6 * static_cast<double>(bytes));
@@ -240,6 +247,8 @@ int run_view(const view_options& options) {
   if (options.out.empty() && options.png.empty())
     throw command_line_error("view: give -o with an HTML file, or --png with a picture, or both");
   const asked_picture asked(options);
+  if (!options.png.empty())
+    check_is_png(options.png);
   if (!options.out.empty() && !has_three_js())
     throw usage_error(options.out +
                       ": pages need three.js, which was not there when this dovetail was built; "

@@ -11,7 +11,6 @@
 #include <utility>
 
 namespace dovetail::app {
-namespace {
 
 std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -19,8 +18,6 @@ std::string extension_of(const std::filesystem::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
-
-} // namespace
 
 bool is_of_triangles(const io::loaded_mesh& mesh) {
   return mesh.mesh.elements.empty() && !mesh.triangles.empty();

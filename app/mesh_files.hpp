@@ -35,6 +35,9 @@ private:
   global_id highest_ = -1;
 };
 
+/// The extension of a file in lower case, with its dot.
+std::string extension_of(const std::filesystem::path& file);
+
 /// Throws `command_line_error` when there is no writer for the file's extension.
 void check_can_write(const std::filesystem::path& file);
 

@@ -32,6 +32,14 @@ inline rgb darkened(rgb colour, double factor) {
   return {scaled(colour.red), scaled(colour.green), scaled(colour.blue)};
 }
 
+/// The colour between two, of which `t` says how much is the second one, from 0 to 1.
+inline rgb mixed(rgb a, rgb b, double t) {
+  const auto part = [&](std::uint8_t from, std::uint8_t to) {
+    return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
+  };
+  return {part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue)};
+}
+
 /// width x height pixels, the top row first. Throws `usage_error` for a size that is not positive.
 class raster_image {
 public:

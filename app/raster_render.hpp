@@ -15,6 +15,15 @@
 
 namespace dovetail::app {
 
+/// A colour as a surface with this normal shows it. The light comes from the viewer's side, above and a
+/// little from the left, so that it reaches nearly all that is seen; both sides of a surface are alike.
+inline rgb lit(rgb colour, vec3 normal, const raster_view& view) {
+  constexpr double ambient = 0.55; // brightness of what the light does not reach
+  const vec3 light = normalized(view.towards + 0.45 * view.up - 0.2 * view.right);
+  const vec3 facing = dot(normal, view.towards) < 0 ? -normal : normal;
+  return darkened(colour, ambient + (1 - ambient) * std::max(0.0, dot(facing, light)));
+}
+
 namespace detail {
 
 /// A canvas of samples with depths.
@@ -28,16 +37,17 @@ public:
   void draw(const raster_triangle& triangle) {
     const auto& p = triangle.corners;
     const vec3 normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
-    fill({on_canvas(p[0]), on_canvas(p[1]), on_canvas(p[2])}, darkened(triangle.colour, brightness(normal)));
+    fill({on_canvas(p[0]), on_canvas(p[1]), on_canvas(p[2])}, lit(triangle.colour, normal, view_));
   }
 
   /// A line is two triangles across the view, a little before its place so that the triangles it bounds do
-  /// not hide it.
+  /// not hide it, and by its rank before other lines there.
   void draw(const raster_line& line, double samples_per_pixel) {
     vec3 a = on_canvas(line.ends[0]);
     vec3 b = on_canvas(line.ends[1]);
-    a.z += line_lift * view_.height;
-    b.z += line_lift * view_.height;
+    const double lift = line_lift * (0.5 + 0.5 * line.rank) * view_.height;
+    a.z += lift;
+    b.z += lift;
     const vec3 along = normalized({b.x - a.x, b.y - a.y, 0});
     const vec3 aside = 0.5 * line.width * samples_per_pixel * vec3{-along.y, along.x, 0};
     fill({a - aside, b - aside, b + aside}, line.colour);
@@ -48,21 +58,12 @@ public:
 
 private:
   static constexpr double line_lift = 0.002; ///< of the picture's height
-  static constexpr double ambient = 0.55;    ///< brightness of what the light does not reach
 
   /// x to the right and y down in samples; z towards the viewer in lengths.
   vec3 on_canvas(vec3 p) const {
     const vec3 d = p - view_.center;
     return {0.5 * image_.width() + scale_ * dot(d, view_.right),
             0.5 * image_.height() - scale_ * dot(d, view_.up), dot(d, view_.towards)};
-  }
-
-  /// The light comes from the viewer's side, above and a little from the left, so that it reaches nearly all
-  /// that is seen; both sides of a triangle are alike.
-  double brightness(vec3 normal) const {
-    const vec3 light = normalized(view_.towards + 0.45 * view_.up - 0.2 * view_.right);
-    const vec3 facing = dot(normal, view_.towards) < 0 ? -normal : normal;
-    return ambient + (1 - ambient) * std::max(0.0, dot(facing, light));
   }
 
   /// Colours the samples whose centers are in a triangle of canvas points and not hidden.

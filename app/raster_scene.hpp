@@ -22,6 +22,7 @@ struct raster_line {
   std::array<vec3, 2> ends;
   rgb colour = black;
   double width = 1; ///< in pixels of the finished picture
+  double rank = 1;  ///< from 0 to 1: of lines at one place that of the highest rank is seen
 };
 
 struct raster_scene {

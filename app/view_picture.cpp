@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,7 +19,8 @@ namespace {
 constexpr rgb outline_colour{45, 50, 60};
 constexpr rgb faint_outline{150, 155, 165};
 constexpr rgb inside{214, 208, 196}; ///< of elements where colours are of groups
-constexpr double shortest_edge = 5;  ///< in pixels
+constexpr double hidden_edges = 2;   ///< in pixels: elements of this size have no edges,
+constexpr double full_edges = 10;    ///< and from this size on the darkest ones
 constexpr double mark_radius = 5;    ///< in pixels, with the rim
 constexpr double mark_rim = 1.5;
 
@@ -66,20 +66,46 @@ polygon section(const std::array<vec3, 4>& p, const view_plane& plane) {
   return corners;
 }
 
-/// Fills a scene of the rasteriser.
-class scene_filler {
-public:
-  scene_filler(const view_scene& scene, const view_wishes& wishes) : scene_(scene), wishes_(wishes) {}
+/// Its length is twice the area.
+vec3 normal_of(const polygon& p) {
+  vec3 normal{};
+  for (std::size_t k = 2; k < p.size(); ++k)
+    normal += cross(p[k - 1] - p[0], p[k] - p[0]);
+  return normal;
+}
 
-  raster_scene filled() {
+template <std::size_t N>
+double mean_edge(const std::array<vec3, N>& p) {
+  double sum = 0;
+  for (std::size_t a = 0; a < N; ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      sum += distance(p[a], p[b]);
+  return sum / (N * (N - 1) / 2);
+}
+
+/// What of a scene is in a picture.
+class scene_parts {
+public:
+  scene_parts(const view_scene& scene, const view_wishes& wishes) : scene_(scene), wishes_(wishes) {}
+
+  /// Calls `f(polygon, colour, size)` for each side and each cut element. `size`: the mean edge of the whole
+  /// element, or of the whole triangle on the surface.
+  template <class F>
+  void for_each_polygon(const F& f) const {
     if (wishes_.under)
-      add_elements();
+      for_each_of_elements(f);
     else
-      add_surface();
+      for_each_of_surface(f);
     if (wishes_.cut)
-      add_section();
-    add_outline();
-    return std::move(filled_);
+      for_each_of_section(f);
+  }
+  void add_outline(std::vector<raster_line>& lines) const {
+    for (const auto& [ends, piece] : scene_.outline) {
+      auto p = placed(ends, piece);
+      if (wishes_.cut && !wishes_.under && !cut_line(p))
+        continue;
+      lines.push_back({p, wishes_.under ? faint_outline : outline_colour, 1.6});
+    }
   }
 
 private:
@@ -116,46 +142,43 @@ private:
                : colour_of_element(static_cast<std::size_t>(scene_.element_of[t]));
   }
 
-  void add_polygon(const polygon& p, rgb colour) {
-    for (std::size_t k = 2; k < p.size(); ++k)
-      filled_.triangles.push_back({{p[0], p[k - 1], p[k]}, colour});
-    if (wishes_.edges && !p.empty())
-      for (std::size_t k = 0; k < p.size(); ++k)
-        filled_.lines.push_back({{p[k], p[(k + 1) % p.size()]}, darkened(colour, 0.36), 0.8});
-  }
-  void add_triangle(const std::array<vec3, 3>& p, rgb colour) {
+  /// What a section leaves of a triangle.
+  template <class F>
+  void visit(const std::array<vec3, 3>& p, rgb colour, double size, const F& f) const {
     const polygon whole(p.begin(), p.end());
-    add_polygon(wishes_.cut ? clipped(whole, *wishes_.cut) : whole, colour);
+    if (const polygon left = wishes_.cut ? clipped(whole, *wishes_.cut) : whole; !left.empty())
+      f(left, colour, size);
   }
-  void add_surface() {
+  template <class F>
+  void for_each_of_surface(const F& f) const {
     const bool all = wishes_.explode > 0 || wishes_.cut;
-    for (std::size_t t = 0; t < (all ? scene_.triangles.size() : scene_.outer); ++t)
-      add_triangle(placed(scene_.triangles[t], scene_.piece_of_triangle(t)), colour_of_triangle(t));
+    for (std::size_t t = 0; t < (all ? scene_.triangles.size() : scene_.outer); ++t) {
+      const auto p = placed(scene_.triangles[t], scene_.piece_of_triangle(t));
+      visit(p, colour_of_triangle(t), mean_edge(p), f);
+    }
   }
-  void add_elements() {
+  template <class F>
+  void for_each_of_elements(const F& f) const {
     for (std::size_t e = 0; e < scene_.tetrahedra.size(); ++e)
       if (is_shown(e)) {
         const auto p = placed(scene_.tetrahedra[e], scene_.pieces.of[e]);
         for (const auto& side : numbering::sides<3>)
-          add_triangle({p[side[0]], p[side[1]], p[side[2]]}, colour_of_element(e));
+          visit({p[side[0]], p[side[1]], p[side[2]]}, colour_of_element(e), mean_edge(p), f);
       }
     for (std::size_t e = 0; scene_.dimension == 2 && e < scene_.count; ++e)
-      if (is_shown(e))
-        add_triangle(placed(scene_.triangles[e], scene_.pieces.of[e]), colour_of_element(e));
+      if (is_shown(e)) {
+        const auto p = placed(scene_.triangles[e], scene_.pieces.of[e]);
+        visit(p, colour_of_element(e), mean_edge(p), f);
+      }
   }
-  void add_section() {
+  template <class F>
+  void for_each_of_section(const F& f) const {
     for (std::size_t e = 0; e < scene_.tetrahedra.size(); ++e)
-      if (is_shown(e))
-        add_polygon(section(placed(scene_.tetrahedra[e], scene_.pieces.of[e]), *wishes_.cut),
-                    colour_of_element(e));
-  }
-  void add_outline() {
-    for (const auto& [ends, piece] : scene_.outline) {
-      auto p = placed(ends, piece);
-      if (wishes_.cut && !wishes_.under && !cut_line(p))
-        continue;
-      filled_.lines.push_back({p, wishes_.under ? faint_outline : outline_colour, 1.6});
-    }
+      if (is_shown(e)) {
+        const auto p = placed(scene_.tetrahedra[e], scene_.pieces.of[e]);
+        if (const polygon cut = section(p, *wishes_.cut); !cut.empty())
+          f(cut, colour_of_element(e), mean_edge(p));
+      }
   }
   /// Leaves of a line what is on the side that stays; false: nothing.
   bool cut_line(std::array<vec3, 2>& p) const {
@@ -170,20 +193,37 @@ private:
 
   const view_scene& scene_;
   const view_wishes& wishes_;
-  raster_scene filled_;
 };
+
+void add_triangles(std::vector<raster_triangle>& triangles, const polygon& p, rgb colour) {
+  for (std::size_t k = 2; k < p.size(); ++k)
+    triangles.push_back({{p[0], p[k - 1], p[k]}, colour});
+}
+
+/// How dark the edges of an element are, from 0 to 1: by its size alone, so that none of them is lost by
+/// itself. Linear, so that small and large elements, with many and few edges, are about as dark as a whole.
+double darkness_of_edges(double pixels) {
+  return std::clamp((pixels - hidden_edges) / (full_edges - hidden_edges), 0.0, 1.0);
+}
+
+/// The edges of a polygon. Between two elements the darker ones are seen, and the outline before them.
+/// \param pixels the size of its element where that is seen from the front
+void add_edges(std::vector<raster_line>& lines, const polygon& p, rgb colour, double pixels,
+               const raster_view& view) {
+  const vec3 normal = normalized(normal_of(p));
+  const double darkness = darkness_of_edges(pixels * std::sqrt(std::abs(dot(normal, view.towards))));
+  if (darkness == 0)
+    return;
+  const rgb dark = mixed(lit(colour, normal, view), darkened(colour, 0.36), darkness);
+  for (std::size_t k = 0; k < p.size(); ++k)
+    lines.push_back({{p[k], p[(k + 1) % p.size()]}, dark, 0.8, 0.9 * darkness});
+}
 
 /// A disc with a dark rim, smooth at its edge; x and y in pixels.
 void draw_mark(raster_image& image, double x, double y, rgb colour) {
   const double reach = mark_radius + 1;
   if (!(x > -reach && x < image.width() + reach && y > -reach && y < image.height() + reach))
     return; // also where a far place is no number of pixels
-  const auto mixed = [](rgb a, rgb b, double t) {
-    const auto part = [&](std::uint8_t from, std::uint8_t to) {
-      return static_cast<std::uint8_t>(std::lround(from + t * (to - from)));
-    };
-    return rgb{part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue)};
-  };
   const auto range = [&](double middle, int size) {
     return std::pair(std::max(0, static_cast<int>(middle - reach)),
                      std::min(size - 1, static_cast<int>(middle + reach)));
@@ -214,12 +254,16 @@ void draw_marks(raster_image& image, const view_wishes& wishes, const raster_vie
 } // namespace
 
 raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes) {
-  raster_scene filled = scene_filler(scene, wishes).filled();
+  const scene_parts parts(scene, wishes);
+  raster_scene filled;
+  parts.for_each_polygon(
+      [&](const polygon& p, rgb colour, double) { add_triangles(filled.triangles, p, colour); });
+  parts.add_outline(filled.lines);
   const raster_view view = fitted(view_from(wishes.towards), filled, wishes.width, wishes.height);
-  const double least = shortest_edge * view.height / wishes.height;
-  std::erase_if(filled.lines, [&](const raster_line& line) {
-    return line.width < 1 && distance(line.ends[0], line.ends[1]) < least;
-  });
+  if (wishes.edges)
+    parts.for_each_polygon([&](const polygon& p, rgb colour, double size) {
+      add_edges(filled.lines, p, colour, size * wishes.height / view.height, view);
+    });
   raster_image image = render(filled, view, wishes.width, wishes.height, 3);
   if (wishes.explode == 0)
     draw_marks(image, wishes, view);

@@ -33,8 +33,8 @@ struct view_wishes {
   view_marks marks = {};              ///< drawn over all else; none where pieces are moved away from them
 };
 
-/// Elements seen in part where a section cuts them. Edges of less than five pixels are left out, since they
-/// would hide the colours.
+/// Elements seen in part where a section cuts them. The edges of small elements fade, all of an element
+/// alike, since they would hide the colours: from ten pixels on, to nothing at two.
 raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes);
 
 /// Whether an element by itself is in the picture, and not only a side of it that is seen anyway: a scene may

@@ -2,6 +2,7 @@
 
 #include "any_mesh_file.hpp"
 #include "mesh_files.hpp"
+#include "view_groups.hpp"
 #include "view_sides.hpp"
 
 #include "dovetail/core/error.hpp"
@@ -110,7 +111,9 @@ void join(std::vector<lone_side>& outer, std::vector<lone_side>& inner, std::spa
 /// What is kept of pieces while others are read.
 class piece_collector {
 public:
-  explicit piece_collector(std::size_t elements) : elements_(elements) {}
+  /// \param surface whose groups the mesh gets if it has none and this is its surface
+  piece_collector(std::size_t elements, surface_groups surface)
+      : elements_(elements), surface_(std::move(surface)) {}
 
   void add(const io::loaded_mesh& piece) {
     const std::size_t count = piece.mesh.elements.size();
@@ -144,6 +147,9 @@ public:
 
   /// All of a scene but its points, groups, outline and centres; in the order of the sides' vertices.
   void fill(view_scene& scene, tag_labels& pieces, tag_labels& materials) {
+    std::vector<lone_side> sides = joined_sides(scene.outer);
+    if (!has_triangles_ && has_surface_)
+      add_groups(std::span(sides).first(scene.outer));
     materials_.finish(material_names_, "material");
     subdomains_.finish({}, "piece");
     groups_.finish(triangle_names_, "group");
@@ -157,7 +163,6 @@ public:
     sort_unique(boundary_);
     scene.vertices = inner_points_ + boundary_.size();
     boundary_ = {};
-    std::vector<lone_side> sides = joined_sides(scene.outer);
     for (const lone_side& side : sides) {
       scene.element_of.push_back(static_cast<local_id>(scene.element_of.size()));
       scene.angles.push_back(side.angle);
@@ -234,13 +239,32 @@ private:
       if (places[v] == place::unused)
         continue;
       box_.include(piece.mesh.points[v]);
-      if (places[v] == place::on_boundary) // which other pieces may have too
+      if (places[v] == place::on_boundary) { // which other pieces may have too
         boundary_.push_back(piece.node_ids[v]);
-      else
+        has_surface_ = has_surface_ && surface_.agrees(piece.node_ids[v], piece.mesh.points[v]);
+      } else {
         ++inner_points_;
+      }
       if (places[v] != place::within)
         points_.add(piece.node_ids[v], piece.mesh.points[v]);
     }
+  }
+
+  /// Those of the surface, where it has all of the outer sides.
+  void add_groups(std::span<lone_side> outer) {
+    std::vector<local_id> groups;
+    for (const lone_side& side : outer)
+      if (const auto group = surface_.group_of(side.ids))
+        groups.push_back(*group);
+    if (groups.size() != outer.size())
+      return;
+    has_triangles_ = true;
+    triangle_names_ = surface_.names();
+    for (std::size_t s = 0; s < outer.size(); ++s)
+      if (groups[s] != no_id) {
+        outer[s].tag = groups[s];
+        groups_.note(groups[s]);
+      }
   }
 
   /// Those that are seen of the whole mesh, the outer ones first.
@@ -272,6 +296,8 @@ private:
   }
 
   element_sample elements_;
+  surface_groups surface_;
+  bool has_surface_ = true; ///< as far as its points say
   std::vector<lone_side> sides_;
   point_table points_; ///< of these sides
   std::vector<global_id> boundary_;
@@ -302,7 +328,7 @@ void replace_first(std::vector<T>& items, std::size_t old, std::span<const lone_
 
 std::optional<view_pieces> view_pieces::read(const std::filesystem::path& mesh, std::int64_t most) {
   constexpr std::size_t any = std::numeric_limits<std::uint32_t>::max();
-  piece_collector collector(view_room(0, 0, any, most).elements);
+  piece_collector collector(view_room(0, 0, any, most).elements, surface_groups::beside(mesh));
   const auto add = [&](const io::loaded_mesh& piece, const std::filesystem::path& file) {
     try {
       collector.add(piece);

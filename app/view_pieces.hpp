@@ -19,7 +19,7 @@
 namespace dovetail::app {
 
 /// The scene has the sides that `scene_of` has for the whole mesh, in the same order, but of the elements
-/// only those asked for.
+/// only those asked for; and groups of the surface from the file beside a mesh without any.
 class view_pieces {
 public:
   /// Reads all pieces: the scene gets the elements of a page with at most `most` triangles. Nothing where the

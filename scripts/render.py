@@ -2,8 +2,8 @@
 """Pictures of an output folder: render.py OUT [--to FOLDER] [--axis y] [--at 0.5] [--view 1,-1.3,0.8] ...
 
 Writes surface.png (the boundary by patch), cut.png (elements behind a plane, by subdomain), exploded.png (the
-decomposition, pulled apart) and worst.png (the elements with the smallest dihedral angles) with VTK, off screen;
-without a display, run it as `xvfb-run -a scripts/render.py OUT`. Faces on the sides of the bounding box are left
+decomposition, pulled apart) and worst.png (the elements with the smallest dihedral angles) with VTK, which needs a
+display: without one, run it as `xvfb-run -a scripts/render.py OUT`, or use `dovetail view OUT --png PICTURE.png`. Faces on the sides of the bounding box are left
 out of the surface when there is something inside (--box keeps them). Of a mesh of triangles it writes pieces.png: the
 triangles by subdomain, with the lines between the subdomains and the CAD curves.
 
@@ -122,6 +122,12 @@ def outline_actor(points):
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(0.4, 0.4, 0.45)
     return actor
+
+
+def require_display():
+    """VTK ends the process where X does not answer."""
+    if vtkRenderWindow().IsA("vtkXOpenGLRenderWindow") and not os.environ.get("DISPLAY"):
+        sys.exit("render: VTK needs a display; run this by `xvfb-run -a`, or use `dovetail view --png`, which needs none")
 
 
 def save(panels, path, options):
@@ -329,6 +335,7 @@ def main():
     parser.add_argument("--bits", type=int, default=8, help="of a colour's channel: fewer make a smaller file")
     parser.add_argument("--box", action="store_true", help="draw faces on the bounding box too")
     options = parser.parse_args()
+    require_display()
     options.size = [int(x) for x in options.size.split("x")]
     if options.given[0].endswith(".vtu"):
         options.view = [float(x) for x in (options.view or "0.9,-1.4,0.8").split(",")]

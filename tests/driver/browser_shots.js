@@ -1,5 +1,6 @@
-// node browser_shots.js BROWSER FOLDER x,y...: for each line "NAME ADDRESS" of the standard input, a picture FOLDER/NAME.png of the page
-// when it has drawn, 1000 times 700 pixels; prints "NAME x,y red green blue" of these pixels. One Chromium without a window makes all.
+// node browser_shots.js BROWSER FOLDER x,y...: for each line "NAME ADDRESS [WIDTH HEIGHT]" of the standard input, a picture
+// FOLDER/NAME.png of the page when it has drawn, 1000 times 700 pixels, whichever size it was loaded in; prints "NAME x,y red green
+// blue" of these pixels. One Chromium without a window makes all.
 // It is asked by its protocol over pipes (https://chromedevtools.github.io/devtools-protocol), which tells when a page is there:
 // nothing waits for a time.
 const fs = require("fs"), path = require("path"), {pixel_reader} = require("./png_pixels.js");
@@ -38,18 +39,27 @@ function ask(method, params = {}, sessionId = undefined) {
   return new Promise(resolve => answers.set(asked, resolve));
 }
 
-async function shoot(name, url) {
+async function shoot(name, url, ...firstSize) {
   const {targetId} = await ask("Target.createTarget", {url: "about:blank"});
   const {sessionId} = await ask("Target.attachToTarget", {targetId, flatten: true});
   const loaded = new Promise(resolve => awaited.set(`${sessionId} Page.loadEventFired`, resolve));
-  await ask("Emulation.setDeviceMetricsOverride", {width: 1000, height: 700, deviceScaleFactor: 1, mobile: false}, sessionId);
+  const resize = (width, height) => ask("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: false}, sessionId);
+  const [width = 1000, height = 700] = firstSize.map(Number);
+  await resize(width, height);
   await ask("Page.enable", {}, sessionId);
   const {errorText} = await ask("Page.navigate", {url}, sessionId);
   if (errorText) fail(`${url}: ${errorText}`);
   await loaded;
   // The page draws in the first frame.
-  const twoFrames = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))";
-  await ask("Runtime.evaluate", {expression: twoFrames, awaitPromise: true}, sessionId);
+  const twoFrames = size => ask("Runtime.evaluate", {awaitPromise: true, expression: `new Promise(done => {
+    const frame = () => innerWidth === ${size} ? requestAnimationFrame(() => requestAnimationFrame(done)) : requestAnimationFrame(frame);
+    frame();
+  })`}, sessionId);
+  await twoFrames(width);
+  if (firstSize.length) {
+    await resize(1000, 700);
+    await twoFrames(1000);
+  }
   const {data} = await ask("Page.captureScreenshot", {optimizeForSpeed: true}, sessionId);
   const picture = Buffer.from(data, "base64"), pixel = pixel_reader(picture);
   fs.writeFileSync(path.join(folder, `${name}.png`), picture);
@@ -58,7 +68,7 @@ async function shoot(name, url) {
 }
 
 (async () => {
-  for (const [name, address] of shots) await shoot(name, address);
+  for (const shot of shots) await shoot(...shot);
   child.removeAllListeners("exit").on("exit", () => process.exit(0));
   ask("Browser.close");
 })();

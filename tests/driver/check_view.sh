@@ -26,17 +26,29 @@ for mesh in solid solid/mesh.pvtu solid/mesh.msh shell; do
   grep -q "^picture.png: 320 x 200 pixels$" "$sandbox/stdout" || fault "it is not said what was written"
   is_png "$sandbox/work/picture.png" 00000140 000000c8
 done
-# The same mesh in other files is the same picture.
+# The same mesh in other files is the same picture; VTU files have the groups of the surface beside them.
 other_files=("--ranks 1 --redistribute none --format openfoam" "--ranks 1 --redistribute none --format mfem")
 "$driver" mesh --help | grep -q "hdf5" && other_files+=("--format hdf5")
 expect_success view "$inputs/solid/mesh.pvtu" --png picture.png --size 320x200 --cut x --colour angle
 cp "$sandbox/work/picture.png" "$inputs/first.png"
+expect_success view "$inputs/solid/mesh.pvtu" --png picture.png --size 320x200 --colour group
+cp "$sandbox/work/picture.png" "$inputs/groups.png"
+expect_success view "$inputs/solid/mesh.msh" --png picture.png --size 320x200 --colour group
+cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups in MSH"
 for how in "${other_files[@]}"; do
   expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 $how --quiet
   rm -rf "$inputs/other" && mv "$sandbox/work/out" "$inputs/other"
   expect_success view "$inputs/other" --png picture.png --size 320x200 --cut x --colour angle
   cmp "$sandbox/work/picture.png" "$inputs/first.png" || fault "another picture with $how"
+  [[ $how == *hdf5 ]] && continue # which has no groups
+  expect_success view "$inputs/other" --png picture.png --size 320x200 --colour group
+  cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups with $how"
 done
+cp -r "$inputs/solid" "$inputs/alone"
+rm "$inputs/alone/surface.vtp"
+expect_success view "$inputs/alone/mesh.pvtu" --png picture.png --size 320x200 --colour group
+[[ -s $sandbox/stderr ]] && fault "it warns"
+cmp -s "$sandbox/work/picture.png" "$inputs/groups.png" && fault "there are groups without a file of them"
 
 expect_success view "$inputs/shell" --png picture.png --size 320x200
 cp "$sandbox/work/picture.png" "$inputs/first.png"
@@ -86,6 +98,11 @@ for wrong in "cube.off: it is not valid JSON.*" "missing.json: there is no such 
 done
 
 # What is wrong is said before or instead of a file.
+expect_success view --help
+for format in VTU PVTU VTP MSH HDF5 MFEM OpenFOAM; do
+  grep -q "Mesh file .*\b$format\b" "$sandbox/stdout" || fault "$format is not named"
+done
+expect_usage_error 'MESH' view "$inputs/solid" -o "$inputs/solid/surface.vtp"
 printf 'no mesh at all\n' >"$inputs/text.vtu"
 head -c 3000 "$inputs/solid/mesh.msh" >"$inputs/short.msh"
 mkdir "$inputs/empty"
@@ -99,6 +116,10 @@ expect_usage_error '--view up: give front' view "$inputs/solid" --png p.png --vi
 expect_usage_error '--view 1,x: give' view "$inputs/solid" --png p.png --view 1,x
 expect_usage_error '--size 10: give WxH' view "$inputs/solid" --png p.png --size 10
 expect_usage_error '--size 0x5: give WxH' view "$inputs/solid" --png p.png --size 0x5
+for name in p.jpg p png p.png.txt; do
+  expect_usage_error "--png $name: pictures are written to files with the extension \.png" view "$inputs/solid" --png "$name"
+done
+expect_success view "$inputs/solid" --png P.PNG --size 32x20
 expect_usage_error '--cut w: give' view "$inputs/solid" --png p.png --cut w
 expect_usage_error '--cut x=: give' view "$inputs/solid" --png p.png --cut x=
 expect_usage_error '--under' view "$inputs/solid" --png p.png --under 200

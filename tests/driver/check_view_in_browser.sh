@@ -10,6 +10,7 @@ skip() {
 }
 
 middle=635,350 # of what is beside the panel
+front="205 108 216" top="219 242 121" # colours of groups: each side of the cube is one
 declare -A pixels
 pixel() { # <picture> <x,y>
   echo "${pixels[$1 $2]}"
@@ -53,6 +54,7 @@ node "$(dirname "$0")/browser_shots.js" "$browser" "$sandbox" $middle 500,350 65
   >"$sandbox/stdout" 2>"$sandbox/stderr" <<LIST
 red file://$inputs/red.html
 plain file://$inputs/mesh.html#$plain
+resized file://$inputs/mesh.html#$plain 720 700
 cut file://$inputs/mesh.html#$plain&cut=x
 flipped file://$inputs/mesh.html#$plain&cut=x&flip=1
 angles file://$inputs/mesh.html#$plain&colours=angle
@@ -71,16 +73,18 @@ done <"$sandbox/stdout"
 # What is in the corners is white.
 expect_pixel plain 990,10 "255 255 255"
 expect_pixel plain 300,600 "255 255 255"
-expect_shade plain $middle 108 164 216
+expect_shade plain $middle $front
 expect_shade cut $middle 214 208 196
-expect_shade flipped $middle 108 164 216
+expect_shade flipped $middle $front
 [[ $(pixel angles $middle) != "255 255 255" ]] || fault "nothing is to be seen by angles"
 pixel glass $middle | awk '{ exit !($1 > 200 && $2 > 200 && $3 > 200 && $1 + $2 + $3 < 765) }' || fault "no glass but $(pixel glass $middle)"
 cmp -s "$sandbox/apart.png" "$sandbox/plain.png" && fault "no piece has moved"
-expect_shade above $middle 108 164 216 # along an axis one side alone is seen
+expect_shade above $middle $top # along an axis one side alone is seen
 [[ $(pixel above $middle) == "$(pixel above 600,300)" ]] || fault "a plane side has two shades"
+# In a window that has changed since then the mesh is fitted again.
+cmp -s "$sandbox/resized.png" "$sandbox/plain.png" || fault "the page is another one where the window had another size"
 # A mark is over all that is before it.
 expect_pixel marked $middle "150 50 200"
-expect_shade marked 650,350 108 164 216
-expect_shade unmarked $middle 108 164 216
+expect_shade marked 650,350 $front
+expect_shade unmarked $middle $front
 finish

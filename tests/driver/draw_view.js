@@ -35,9 +35,11 @@ THREE.WebGLRenderer = class {
   setSize() {}
   render(scene, camera) { rendered.push({scene, camera}); }
 };
-const run = new Function("document", "location", "addEventListener", "requestAnimationFrame", "innerWidth", "innerHeight", "devicePixelRatio",
-  script("model") + script("show") + "return {layers, lines, discs, state, eye, uniforms, onScreen};");
-const shown = run(document, {hash: "#edges=0"}, () => {}, frame => frames.push(frame), 800, 600, 1);
+const ofWindow = {};
+Object.assign(globalThis, {innerWidth: 800, innerHeight: 600, devicePixelRatio: 1});
+const run = new Function("document", "location", "addEventListener", "requestAnimationFrame",
+  script("model") + script("show") + "return {layers, lines, discs, state, eye, uniforms, onScreen, half, panelWidth};");
+const shown = run(document, {hash: "#edges=0"}, (name, listener) => { ofWindow[name] = listener; }, frame => frames.push(frame));
 
 const areaOf = ({geometry}) => {
   const p = geometry.attributes.position.array;
@@ -138,3 +140,46 @@ canvas.listeners.pointerup(event(0, 0, {pointerId: 2}));
 canvas.listeners.wheel({deltaY: 100, preventDefault() {}});
 settle();
 print("rendered", rendered.length > 0);
+
+// Whether all of the mesh is on the screen, beside the panel.
+function fits() {
+  const corners = [...Array(8).keys()].map(k => shown.half.map((length, i) => k >> i & 1 ? length : -length)).map(shown.onScreen);
+  return corners.every(([x, y]) => x > shown.panelWidth() && x < innerWidth && y > 0 && y < innerHeight);
+}
+function resize(width) {
+  globalThis.innerWidth = width;
+  ofWindow.resize();
+}
+function toggle(open) {
+  byId.panel.open = open;
+  byId.panel.listeners.toggle();
+}
+const [, home] = tags.find(([attributes]) => attributes.includes('data-from=""'));
+home.listeners.click();
+print("fits.home", fits());
+toggle(false);
+const wide = shown.eye.away;
+resize(400);
+print("fits.narrow", fits());
+resize(720);
+toggle(true);
+print("fits.panel", fits());
+toggle(false);
+resize(800);
+print("fits.back", shown.eye.away === wide);
+function drag() {
+  canvas.listeners.pointerdown(event(0, 0));
+  canvas.listeners.pointermove(event(9, 0));
+  canvas.listeners.pointerup(event(9, 0));
+}
+const zoom = () => canvas.listeners.wheel({deltaY: -100, preventDefault() {}});
+for (const [how, move] of Object.entries({turned: drag, zoomed: zoom})) {
+  home.listeners.click();
+  move();
+  const {away} = shown.eye;
+  resize(720);
+  toggle(true);
+  print(`stays.${how}`, shown.eye.away === away);
+  toggle(false);
+  resize(800);
+}

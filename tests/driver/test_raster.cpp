@@ -90,6 +90,16 @@ TEST_CASE("a line is as wide as it says, before the triangle it lies on, and hid
   CHECK(is_shade_of(render(scene, plane_view(10), 10, 10, 1).at(5, 5), red));
 }
 
+TEST_CASE("of lines at one place that of the highest rank is seen, in either order") {
+  const raster_line low{{vec3{0, 5, 0}, vec3{10, 5, 0}}, red, 2, 0.4},
+      high{{vec3{10, 5, 0}, vec3{0, 5, 0}}, blue, 2, 0.5};
+  raster_scene scene;
+  for (const auto& lines : {std::vector{low, high}, std::vector{high, low}}) {
+    scene.lines = lines;
+    CHECK(render(scene, plane_view(10), 10, 10, 1).at(5, 5) == blue);
+  }
+}
+
 TEST_CASE("a fitted view shows the whole scene") {
   raster_scene scene;
   scene.background = black;

@@ -127,6 +127,16 @@ TEST_CASE("marks are discs where the report has them, and say what they are") {
   CHECK(values["marks.none"] == "0");
 }
 
+TEST_CASE("the mesh is fitted again to another window or without the panel, until the view is moved") {
+  auto values = drawn(page_of(testing::cubes_in_pieces(5))); // wider than a narrow window
+  if (values.empty())
+    return;
+  for (const std::string when : {"home", "narrow", "panel", "back"})
+    CHECK_MESSAGE(values["fits." + when] == "true", when);
+  for (const std::string how : {"turned", "zoomed"})
+    CHECK_MESSAGE(values["stays." + how] == "true", how);
+}
+
 TEST_CASE("without marks there is no control for them; of a report without any the page says so") {
   auto without = drawn(page_of(testing::cubes_in_pieces(2)));
   auto empty = drawn(page_of(testing::cubes_in_pieces(2), 1000, "a mesh", {"run.json", {}}));

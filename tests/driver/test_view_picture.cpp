@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace dovetail::app {
 namespace {
@@ -104,6 +106,25 @@ TEST_CASE("pieces are pulled apart") {
   CHECK(is_shade_of(apart.at(95, 30), colour_of_number(1)));
 }
 
+int sum_of(rgb pixel) {
+  return pixel.red + pixel.green + pixel.blue;
+}
+
+/// n x n squares of two triangles each.
+io::loaded_mesh flat_grid(local_id n) {
+  io::loaded_mesh grid;
+  for (local_id y = 0; y <= n; ++y)
+    for (local_id x = 0; x <= n; ++x)
+      grid.mesh.points.push_back({static_cast<double>(x), static_cast<double>(y), 0});
+  for (local_id y = 0; y < n; ++y)
+    for (local_id x = 0; x < n; ++x) {
+      const local_id v = y * (n + 1) + x;
+      grid.triangles.push_back({v, v + 1, v + n + 2});
+      grid.triangles.push_back({v, v + n + 2, v + n + 1});
+    }
+  return grid;
+}
+
 TEST_CASE("edges are dark where they are long enough to be seen") {
   const view_scene scene = scene_of(testing::row_of_cubes(2));
   view_wishes wishes = from_front(view_colours::group);
@@ -111,12 +132,60 @@ TEST_CASE("edges are dark where they are long enough to be seen") {
     const raster_image image = picture_of_view(scene, wishes);
     int sum = 3 * 255;
     for (int x = 10; x < 55; ++x) // a row that crosses the diagonal of a square
-      sum = std::min(sum, image.at(x, 25).red + image.at(x, 25).green + image.at(x, 25).blue);
+      sum = std::min(sum, sum_of(image.at(x, 25)));
     return sum;
   };
   const int without = darkest();
   wishes.edges = true;
   CHECK(darkest() < 0.85 * without);
+}
+
+TEST_CASE("no element loses single edges, however short") {
+  io::loaded_mesh rhombus; // of two triangles, 110 pixels wide; what is between them has four
+  rhombus.mesh.points = {{-10, 0, 0}, {0, -0.4, 0}, {10, 0, 0}, {0, 0.4, 0}};
+  rhombus.triangles = {{0, 1, 3}, {1, 2, 3}};
+  const auto is_darker = [](const view_scene& scene, view_wishes wishes, int x, int y) {
+    const raster_image without = picture_of_view(scene, wishes);
+    wishes.edges = true;
+    return sum_of(picture_of_view(scene, wishes).at(x, y)) < 0.85 * sum_of(without.at(x, y));
+  };
+  view_wishes wishes = from_front(view_colours::group);
+  wishes.towards = {0, 0, 1};
+  CHECK(is_darker(scene_of(std::move(rhombus)), wishes, 60, 29));
+  CHECK_FALSE(is_darker(scene_of(testing::two_squares()), wishes, 70, 20));
+
+  // A section at y = 0.07 meets the elements of a cube along x = y, z = y and x = z.
+  wishes.towards = {0, -1, 0};
+  wishes.cut = view_plane{{0, -1, 0}, -0.07};
+  const view_scene row = scene_of(testing::row_of_cubes(2));
+  CHECK(is_darker(row, wishes, 63, 56));
+  CHECK_FALSE(is_darker(row, wishes, 66, 56));
+}
+
+TEST_CASE("edges fade with the size of elements, without a jump") {
+  const view_scene scene = scene_of(flat_grid(12));
+  const auto darkening = [&](int size) {
+    view_wishes wishes = from_front(view_colours::group);
+    wishes.towards = {0, 0, 1};
+    wishes.width = wishes.height = size;
+    const auto brightness = [&] {
+      const raster_image image = picture_of_view(scene, wishes);
+      return std::accumulate(image.data(), image.data() + size * size, 0.0,
+                             [](double sum, rgb pixel) { return sum + sum_of(pixel); });
+    };
+    const double without = brightness();
+    wishes.edges = true;
+    return 1 - brightness() / without;
+  };
+  CHECK(darkening(22) == 0); // 1.7 pixels each
+  CHECK(darkening(180) > 0.08);
+  double before = 0;
+  for (int size = 24; size <= 180; size += 4) { // up to 14 pixels
+    const double now = darkening(size);
+    INFO(size);
+    CHECK(std::abs(now - before) < 0.03);
+    before = now;
+  }
 }
 
 TEST_CASE("marks are discs with a dark rim, drawn over the mesh") {

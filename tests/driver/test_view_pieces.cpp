@@ -22,6 +22,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,8 +37,8 @@ using dovetail::testing::scratch_folder;
 constexpr std::int64_t all = 1'000'000; ///< triangles of a page that has everything
 const dovetail::testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
-/// The files of a mesh in pieces: a VTU file for each or for some of them, or files of ranks, which have
-/// groups.
+/// The files of a mesh in pieces: a VTU file for each or for some of them, without groups, or files of ranks,
+/// which have some.
 void write(const std::string& how, const std::filesystem::path& folder) {
   if (how == "mfem")
     io::rank_writer<io::mfem_format>{.ranks = 3}(cubes.distributed(), folder);
@@ -46,6 +49,7 @@ void write(const std::string& how, const std::filesystem::path& folder) {
                                                                                   folder);
   else
     io::vtu_writer{.files = how == "vtu" ? 0 : 3}(cubes.distributed(), folder);
+  std::filesystem::remove(folder / "surface.vtp");
 }
 
 view_scene whole_of(const std::filesystem::path& folder) {
@@ -108,6 +112,72 @@ TEST_CASE("read piece by piece, a mesh has the scene of the whole") {
     CHECK(places(scene, scene.tetrahedra) == places(whole, whole.tetrahedra));
     CHECK(std::equal(whole.pieces.of.begin(), whole.pieces.of.end(), scene.pieces.of.begin()));
   }
+}
+
+/// The groups of outer triangles by their corners.
+std::map<std::vector<std::array<double, 3>>, std::string> groups_by_place(const view_scene& scene) {
+  std::map<std::vector<std::array<double, 3>>, std::string> groups;
+  for (std::size_t t = 0; t < scene.outer; ++t) {
+    std::vector<std::array<double, 3>> place;
+    for (const vec3 p : corners(span_of(scene.points), scene.triangles[t]))
+      place.push_back({p.x, p.y, p.z});
+    std::sort(place.begin(), place.end());
+    groups[place] = scene.groups.names.at(static_cast<std::size_t>(scene.groups.of[t]));
+  }
+  return groups;
+}
+
+TEST_CASE("VTU files have the groups of the surface beside them, as MSH files of the mesh have their own") {
+  const scratch_folder folder("view_pieces"), other("view_pieces_msh");
+  auto mesh = cubes.distributed();
+  mesh.group_names = {"inlet", "", "walls & more", "", "walls & more"};
+  io::vtu_writer{}(mesh, folder);
+  io::rank_writer<io::rank_msh_format>{.ranks = 3}(mesh, other);
+  const view_scene scene = view_pieces::read(folder / "mesh.pvtu", all)->scene;
+  const auto groups = groups_by_place(scene);
+  CHECK(groups.size() == 6 * 6 * 6 * 2);
+  CHECK(groups == groups_by_place(view_pieces::read(io::find_mesh_file(other), all)->scene));
+  CHECK(scene.groups.names.size() == 10); // nine and what is between pieces
+  CHECK(scene.groups.names[0] == "inlet");
+  CHECK(scene.groups.names[1] == "walls & more"); // as CAD face 1 is inside
+  CHECK(scene.groups.names.back() == "between pieces");
+}
+
+TEST_CASE("a file beside the mesh that is not its surface, or damaged, gives no groups") {
+  const scratch_folder folder("view_pieces");
+  io::vtu_writer{}(cubes.distributed(), folder);
+  const std::string surface = dovetail::testing::file_content(folder / "surface.vtp");
+  const auto names_with = [&](const std::string& content) {
+    dovetail::testing::write_content(folder / "surface.vtp", content);
+    return view_pieces::read(folder / "mesh.pvtu", all)->scene.groups.names;
+  };
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string content = surface;
+    const std::size_t at = content.find(from);
+    REQUIRE(at != std::string::npos);
+    return content.replace(at, from.size(), to);
+  };
+  CHECK(names_with(surface).size() == 4);
+  std::filesystem::remove(folder / "surface.vtp");
+  const auto without = view_pieces::read(folder / "mesh.pvtu", all)->scene.groups.names;
+  CHECK(without.size() == 3); // by material, and between pieces
+  CHECK(names_with(changed("\"patch\"", "\"match\"")) == without);
+  CHECK(names_with(changed("\"patch_names\"", "\"match_names\"")) == without);
+  CHECK(names_with(changed("\"GlobalNodeIds\" ", "\"GlobalNodeIdx\" ")) == without);
+  CHECK(names_with(surface.substr(0, surface.size() / 2)) == without);
+  CHECK(names_with("") == without);
+  std::string moved = surface;
+  moved[moved.find("\n_") + 2 + 8] ^= 1; // of the first coordinate
+  CHECK(names_with(moved) == without);
+  auto finer = cubes;
+  finer.cells = 8;
+  const scratch_folder other("view_pieces_finer");
+  io::vtu_writer{}(finer.distributed(), other);
+  CHECK(names_with(dovetail::testing::file_content(other / "surface.vtp")) == without);
+  std::string index = dovetail::testing::file_content(folder / "mesh.pvtu"); // of a part of the mesh
+  const std::string first = "<Piece Source=\"mesh_0000.vtu\"/>";
+  dovetail::testing::write_content(folder / "mesh.pvtu", index.erase(index.find(first), first.size()));
+  CHECK(names_with(surface) == without);
 }
 
 TEST_CASE("what is between files but not between pieces is seen where it has a group") {

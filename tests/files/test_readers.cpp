@@ -288,7 +288,8 @@ TEST_CASE("missing, empty and foreign files are refused by name") {
                        doctest::Contains("none.vtu: there is no such file"), input_error);
   CHECK_THROWS_WITH_AS(io::read_mesh(folder), doctest::Contains("no .pvtu or .msh"), input_error);
   check_says(refusal(""), "empty");
-  check_says(refusal("ISO-10303-21;\nHEADER;"), "no mesh file that is known");
+  check_says(refusal("ISO-10303-21;\nHEADER;"),
+             "no mesh file that is known: neither VTU, PVTU, VTP, MSH, HDF5, MFEM nor OpenFOAM");
   check_says(refusal("<?xml version=\"1.0\"?><svg></svg>"), "not a VTK XML file");
   check_says(refusal("<VTKFile type=\"PolyData\"><PolyData></PolyData></VTKFile>"), "no <Piece>");
   check_says(refusal("<VTKFile type=\"ImageData\"><ImageData></ImageData></VTKFile>"), "ImageData");

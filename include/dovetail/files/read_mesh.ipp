@@ -94,7 +94,8 @@ DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_exp
     detail::refuse_one_piece(file);
   if (start.find("<?xml") != std::string::npos || start.find("<VTKFile") != std::string::npos)
     return vtu_reader{expand, fields, elements}(file);
-  throw input_error(file.string() + ": this is no mesh file that is known: neither VTU, PVTU, VTP nor MSH");
+  throw input_error(file.string() + ": this is no mesh file that is known: neither VTU, PVTU, VTP, MSH, "
+                                    "HDF5, MFEM nor OpenFOAM");
 }
 
 DOVETAIL_INLINE std::vector<std::filesystem::path> files_of_mesh(const std::filesystem::path& path) {
