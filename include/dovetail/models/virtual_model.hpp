@@ -17,7 +17,8 @@ namespace dovetail {
 /// What of a model is a detail.
 struct virtual_options {
   double share_of_size = 0.25; ///< edges up to this share of the size there, and faces so narrow, are details
-  double least_angle_deg = 40; ///< what would leave a sharper corner or edge behind stays
+  double least_angle_deg = 40; ///< what would leave a sharper edge between faces behind stays
+  double least_corner_deg = 28;          ///< what would leave a sharper corner of a face behind stays
   std::vector<local_id> kept_faces = {}; ///< whose boundaries stay as they are
 };
 

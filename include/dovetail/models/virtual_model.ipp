@@ -87,9 +87,10 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
     : model_(std::move(model)) {
   sizing::checked_length(options.share_of_size, "the share of the size that details have");
   sizing::checked_length(options.least_angle_deg, "the least angle beside details");
+  sizing::checked_length(options.least_corner_deg, "the least angle of corners beside details");
   const virtual_topology::limits allowed{
       [&size, share = options.share_of_size](vec3 p) { return share * size(p); }, options.least_angle_deg,
-      options.kept_faces};
+      options.least_corner_deg, options.kept_faces};
   auto made = std::make_shared<data>();
   virtual_topology::editable_topology topology(&model_);
   std::size_t found = 1;

@@ -13,7 +13,8 @@ namespace dovetail::virtual_topology {
 /// Up to what an entity is a detail, and what may not come of it.
 struct limits {
   any_sizing length;                     ///< what is at most so long or wide, there, is a detail
-  double least_angle_deg = 40;           ///< no corner and no edge becomes sharper
+  double least_angle_deg = 40;           ///< no edge becomes sharper
+  double least_corner_deg = 28;          ///< nor does a corner of a face
   std::vector<local_id> kept_faces = {}; ///< whose boundaries stay
 };
 

@@ -58,7 +58,7 @@ DOVETAIL_INLINE bool can_be_dropped(const editable_topology& topology, const lim
     return angle_between(topology.direction(from, 1), topology.direction(to, 0));
   };
   constexpr double same = 0.02; // radians, by which curves bend: a corner that is as sharp already only moves
-  return turn(before, after) <= std::max({std::numbers::pi - allowed.least_angle_deg / degrees_per_radian,
+  return turn(before, after) <= std::max({std::numbers::pi - allowed.least_corner_deg / degrees_per_radian,
                                           turn(before, gone) + same, turn(gone, after) + same});
 }
 
