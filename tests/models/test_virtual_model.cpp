@@ -166,6 +166,25 @@ TEST_CASE("a short edge between long ones becomes the vertex of theirs that has 
   CHECK(after == entity_counts{before.faces, before.curves - 1, before.vertices - 1});
 }
 
+TEST_CASE("a short edge stays where a corner of a face would be sharp without it") {
+  const auto with_corner = [](double degrees) {
+    const double end = 5.1 + 5 * std::tan(degrees * std::numbers::pi / 180);
+    const outline base{{0, 0}, {5, 0}, {end, 0}, {10, 0}, {10, 10}, {0, 10}};
+    polygon_surface made = prism(base, base, {5, 5}, {0, 10});
+    const auto is_top = [&](const simplex<2>& t) {
+      return std::all_of(t.begin(), t.end(), [&](local_id v) { return made.points[v].z == 10; });
+    };
+    std::erase_if(made.triangles, is_top);
+    made.ids.assign(made.triangles.size(), no_id);
+    made.add({{5, 0, 10}, {end, 0, 10}, {5.1, 5, 10}, {5, 5, 10}}, {5.5, 2, 10}, 1);
+    made.add({{end, 0, 10}, {10, 0, 10}, {10, 10, 10}, {5.1, 5, 10}}, {8, 2, 10}, 2);
+    made.add({{5.1, 5, 10}, {10, 10, 10}, {0, 10, 10}, {0, 0, 10}, {5, 0, 10}, {5, 5, 10}}, {4, 6, 10}, 2);
+    return made.model();
+  };
+  CHECK(kinds_of(without_details(with_corner(33))) == std::vector{kind::short_edge});
+  CHECK(kinds_of(without_details(with_corner(24))).empty());
+}
+
 TEST_CASE("where a neighbour's vertex is on one side of a strip only, the other side gets one") {
   for (const std::size_t side : {1U, 3U}) { // before and behind it
     const auto cube = chamfered_cube(0.1, 0.15, {0, 2, 5, 8, 10}, [side](std::size_t s, std::size_t layer) {
