@@ -162,8 +162,8 @@ private:
     return degrees_per_radian * std::atan2(norm(cross(a, b)), dot(a, b));
   }
 
-  /// Those on the surface, and of those inside that the elements have the ones with room for hardly others
-  /// beside them.
+  /// The vertices on the model's surface, and those vertices of the elements that are inside the piece and
+  /// joined to few others that are not on the surface.
   static std::vector<bool> vertices_in_walls(const mesh_piece& piece, const fine_skeleton& skeleton,
                                              std::span<const simplex<3>> elements) {
     constexpr std::ptrdiff_t most_beside = 2; // a layer between two surfaces has more, a chain has not
@@ -184,7 +184,8 @@ private:
     sort_unique(beside);
     std::vector<bool> in_wall = on_surface;
     for (std::size_t v = 0; v < asked.size(); ++v)
-      in_wall[v] = in_wall[v] || asked[v];
+      if (asked[v])
+        in_wall[v] = true;
     for (auto first = beside.begin(), last = first; first != beside.end(); first = last) {
       last = std::find_if(first, beside.end(), [&](const auto& pair) { return pair.first != first->first; });
       in_wall[first->first] = last - first <= most_beside;
@@ -225,8 +226,8 @@ private:
     sort_unique(wedges_);
   }
 
-  /// A face's triangles at a vertex, in all, turn by its angle there. Where that is small, and two curves
-  /// begin, is a corner.
+  /// The angles of a face's triangles at a vertex sum up to the angle of its boundary there. Where the sum is
+  /// small, and two curves begin at the vertex, there is a corner.
   void find_corners(const mesh_piece& piece) {
     struct turn {
       local_id vertex, face;
@@ -257,12 +258,11 @@ private:
 
   void add_corners(local_id vertex, local_id face, std::vector<local_id> ends) {
     sort_unique(ends);
-    std::vector<local_id> beyond; // both at the ends of a loop that is its own neighbour
-    for (const local_id end : ends) {
+    std::vector<local_id> beyond; // with repetition: one face may be beyond both curves
+    for (const local_id end : ends)
       for (const flap& one : flaps_at(simplex<1>{vertex, end}))
         if (one.face != face)
           beyond.push_back(one.face);
-    }
     for (std::size_t a = 0; a < beyond.size(); ++a)
       for (std::size_t b = a + 1; b < beyond.size(); ++b)
         corners_.push_back({face, {beyond[a], beyond[b]}});

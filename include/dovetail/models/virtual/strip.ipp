@@ -145,8 +145,8 @@ inline std::optional<place_on_side> first_apart(const editable_topology& topolog
   return std::nullopt;
 }
 
-/// The place on a tip's first side, at most the given one, that leaves no short rest of either side, as far
-/// as the sides are not to end with their curves. To some digits.
+/// Where to cut the first side of a tip: at the given place, or before it, if what is left of a side behind
+/// the cut would be a short edge. Found by bisection, to a few digits.
 inline place_on_side leaving_no_short_rest(const editable_topology& topology, const limits& allowed,
                                            const strip& tip, const place_on_side& apart) {
   const auto end_of = [&](std::size_t k) {
