@@ -2,6 +2,7 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "file_checksums.hpp"
+#include "finished_run.hpp"
 #include "mesh_files.hpp"
 #include "run_figures.hpp"
 
@@ -15,6 +16,7 @@
 #include "dovetail/parallel/serial.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -281,15 +283,34 @@ int with_mesh_of(const std::filesystem::path& file, io::loaded_mesh loaded, cons
                          std::move(elsewhere)});
 }
 
-/// Whether the files of a run are as it wrote them.
-int check_files(const std::string& report) {
-  const report_files given = files_of_report(report);
+/// Whether the files of a run are as it wrote them. `listed_in` names what lists them.
+int check_files(const report_files& given, const std::string& listed_in) {
   if (const std::string faults = faults_of(given); !faults.empty()) {
-    complain(report + ": not as it was written: " + faults);
+    complain(listed_in + ": not as it was written: " + faults);
     return exit_failure;
   }
-  std::printf("%s: %zu files are as they were written\n", report.c_str(), given.files.size());
+  const std::size_t count = given.files.size();
+  std::printf("%s: %zu %s written\n", listed_in.c_str(), count,
+              count == 1 ? "file is as it was" : "files are as they were");
   return exit_ok;
+}
+
+/// Whether what the record of a run lists is as it was written: of a folder all of it, of a mesh its files,
+/// `read`. A mesh can be damaged and still be one. Nothing is said where there is no record of these.
+int check_record(const std::filesystem::path& path, const std::vector<std::filesystem::path>& read) {
+  std::error_code failure;
+  const bool is_folder = std::filesystem::is_directory(path, failure);
+  report_files run{is_folder ? path : path.parent_path(), {}};
+  run.files = files_of_run_in(run.folder);
+  const auto is_read = [&](const written_file& file) {
+    const auto place = (run.folder / file.name).lexically_normal();
+    return place == path.lexically_normal() || std::any_of(read.begin(), read.end(), [&](const auto& each) {
+             return each.lexically_normal() == place;
+           });
+  };
+  if (!is_folder)
+    std::erase_if(run.files, [&](const written_file& file) { return !is_read(file); });
+  return run.files.empty() ? exit_ok : check_files(run, path.string());
 }
 
 /// `files` receives those that have the mesh.
@@ -318,8 +339,10 @@ int check_file(const std::filesystem::path& file, std::vector<std::filesystem::p
 int check_mesh(const std::filesystem::path& path) {
   std::error_code failure;
   std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(path, failure))
-    return check_file(path, files);
+  if (!std::filesystem::is_directory(path, failure)) {
+    const int result = check_file(path, files);
+    return result == exit_ok ? check_record(path, files) : result;
+  }
   const auto all = all_meshes_in(path);
   if (all.empty())
     io::find_mesh_file(path); // says what is there instead
@@ -333,7 +356,7 @@ int check_mesh(const std::filesystem::path& path) {
       result = of_file;
     done.insert(done.end(), files.begin(), files.end());
   }
-  return result;
+  return result == exit_ok ? check_record(path, {}) : result;
 }
 
 } // namespace
@@ -341,7 +364,8 @@ int check_mesh(const std::filesystem::path& path) {
 int run_check(const check_options& options) {
   if (options.mesh.empty() && options.report.empty())
     throw command_line_error("check: give a mesh file, or --report with the report of a run, or both");
-  const int files = options.report.empty() ? exit_ok : check_files(options.report);
+  const int files =
+      options.report.empty() ? exit_ok : check_files(files_of_report(options.report), options.report);
   const int mesh = options.mesh.empty() ? exit_ok : check_mesh(options.mesh);
   return files == exit_ok ? mesh : files;
 }

@@ -91,10 +91,13 @@ std::string faults_of(const report_files& given) {
     std::error_code missing;
     const auto bytes = std::filesystem::file_size(path, missing);
     std::error_code ignored;
+    const auto same_content = [&] {
+      return file.checksum.empty() || checksum_of_file(path) == file.checksum;
+    };
     const char* fault = std::filesystem::is_directory(path, ignored) ? " is a folder"
                         : missing                                    ? " is missing"
                         : bytes != file.bytes                        ? " has another size"
-                        : checksum_of_file(path) != file.checksum    ? " has another content"
+                        : !same_content()                            ? " has another content"
                                                                      : nullptr;
     if (fault != nullptr)
       faults += (faults.empty() ? "" : ", ") + path.string() + fault;

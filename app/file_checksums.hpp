@@ -16,7 +16,7 @@ namespace dovetail::app {
 struct written_file {
   std::string name; ///< in the run's folder
   std::uint64_t bytes = 0;
-  std::string checksum; ///< of its content, in hexadecimal digits
+  std::string checksum; ///< of its content, in hexadecimal digits; empty when it is not known
 };
 
 std::string hexadecimal(std::uint64_t value);
@@ -30,7 +30,7 @@ std::vector<written_file> read_back(const std::filesystem::path& folder,
                                     const std::vector<std::string>& names, const any_executor& run_tasks,
                                     const progress& on_progress = {});
 
-/// The files that a report lists.
+/// The files that the report or the record of a run lists.
 struct report_files {
   std::filesystem::path folder;
   std::vector<written_file> files;

@@ -5,7 +5,9 @@
 
 #include "dovetail/core/output_file.hpp"
 
+#include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <system_error>
@@ -14,6 +16,7 @@ namespace dovetail::app {
 namespace {
 
 constexpr const char* record_name = "finished_run.txt";
+constexpr const char* unknown_checksum = "-"; ///< of a run that ended while it read its files back
 
 /// Other numbers of ranks may give other parts.
 std::string text_of_rank_partitioner(const mesh_options& options) {
@@ -21,6 +24,18 @@ std::string text_of_rank_partitioner(const mesh_options& options) {
     return "";
   return " parts by " + options.rank_partitioner + " on " +
          std::to_string(options.network ? options.network->size() : 1);
+}
+
+/// What is behind the line "files".
+std::vector<written_file> listed_files(std::istream& record) {
+  std::vector<written_file> files;
+  written_file file;
+  while (record >> file.bytes >> file.checksum && record.ignore() && std::getline(record, file.name)) {
+    if (file.checksum == unknown_checksum)
+      file.checksum.clear();
+    files.push_back(file);
+  }
+  return files;
 }
 
 } // namespace
@@ -53,25 +68,31 @@ bool finished_run::is_there() const {
   if (!file || !text.starts_with(started_with_))
     return false;
   std::istringstream listed(text.substr(started_with_.size()));
-  std::uint64_t bytes = 0;
-  std::string checksum, name;
-  while (listed >> bytes >> checksum && listed.ignore() && std::getline(listed, name)) {
+  const std::vector<written_file> files = listed_files(listed);
+  return std::all_of(files.begin(), files.end(), [&](const written_file& each) {
     std::error_code missing;
-    if (std::filesystem::file_size(folder_ / name, missing) != bytes || missing)
-      return false;
-  }
-  return true;
+    return std::filesystem::file_size(folder_ / each.name, missing) == each.bytes && !missing;
+  });
 }
 
 void finished_run::record(const std::vector<written_file>& files) const {
   output_file file(folder_ / record_name);
   file.text(started_with_);
   for (const written_file& each : files)
-    file.text(std::to_string(each.bytes) + " " + (each.checksum.empty() ? "-" : each.checksum) + " " +
-              each.name + "\n");
+    file.text(std::to_string(each.bytes) + " " + (each.checksum.empty() ? unknown_checksum : each.checksum) +
+              " " + each.name + "\n");
   if (!input_.empty()) // behind the files: where it lies is no part of what the run is
     file.text("input " + input_ + "\n");
   file.commit();
+}
+
+std::vector<written_file> files_of_run_in(const std::filesystem::path& folder) {
+  std::ifstream record(folder / record_name, std::ios::binary);
+  std::string line;
+  while (std::getline(record, line))
+    if (line == "files")
+      return listed_files(record);
+  return {};
 }
 
 std::optional<recorded_model> model_of_run_beside(const std::filesystem::path& mesh) {

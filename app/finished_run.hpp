@@ -33,6 +33,9 @@ private:
   std::string input_; ///< the model's file, from the folder; empty for a built-in one
 };
 
+/// The files that the run in a folder has written, by its record; none where there is no record.
+std::vector<written_file> files_of_run_in(const std::filesystem::path& folder);
+
 /// The model that the run in a folder made its mesh of.
 struct recorded_model {
   std::filesystem::path file; ///< empty for a built-in model

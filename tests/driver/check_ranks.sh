@@ -137,6 +137,22 @@ for file in mesh_0000 ranks_0000 ranks_0002; do
 done
 expect_success stats "$inputs/lone/mesh_0000.vtu"
 grep -q "^warning: .*mesh_0000.vtu: .*part of a larger mesh" "$sandbox/stderr" || fault "no warning"
+# What is damaged and still a mesh does not agree with the record of the run: in a folder, and of a mesh its own files.
+expect_success check "$set"
+grep -q "set: [1-9][0-9]* files are as they were written" "$sandbox/stdout" || fault "no comparison with the record"
+cp -r "$set" "$inputs/harmed"
+printf '\1' | dd of="$inputs/harmed/surface.vtp" bs=1 seek=$(($(stat -c %s "$set/surface.vtp") - 40)) conv=notrunc status=none
+echo >>"$inputs/harmed/mesh.000001"
+rm "$inputs/harmed/interfaces.vtp"
+expect_error "harmed: not as it was written: .*interfaces.vtp is missing" check "$inputs/harmed"
+for harm in "surface.vtp has another content" "mesh.000001 has another size"; do
+  grep -q "/$harm" "$sandbox/stderr" || fault "it does not say: $harm"
+done
+expect_error "mesh.000001: not as it was written: .*/mesh.000001 has another size$" check "$inputs/harmed/mesh.000001"
+expect_success check "$inputs/harmed/ranks.pvtu"
+rm "$inputs/harmed/finished_run.txt"
+expect_success check "$inputs/harmed"
+
 mv "$set/ranks_3.msh" "$set/third.msh"
 for command in check stats "improve -o better.vtu"; do
   # shellcheck disable=SC2086

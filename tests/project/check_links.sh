@@ -1,5 +1,6 @@
 #!/bin/bash
 # Every relative link and picture in the documents, code aside, leads to a file, and what follows a # to a heading in it.
+# No file has the marks of a merge.
 set -uo pipefail
 problems=0
 
@@ -20,4 +21,8 @@ for document in *.md docs/*.md docs/*/*.md; do
     anchors_of "$file" | grep -qxF -- "${target#*#}" || { echo "$document: $target: there is no such heading"; problems=1; }
   done < <(awk '/^```/ { code = !code; next } !code' "$document" | grep -oE '\]\([^) ]+\)' | sed 's/^](//; s/)$//')
 done
+if grep -rnE '^(<{7}|>{7})( |$)' --include='*' --exclude-dir=build --exclude-dir=.git .; then
+  echo "marks of a merge are left"
+  problems=1
+fi
 exit $problems

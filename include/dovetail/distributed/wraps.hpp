@@ -11,7 +11,7 @@ namespace dovetail::redistribution_by {
 template <class Self, class Redistributor>
 struct wraps : wrapped_policy<Self, Redistributor> {
   static_assert(redistributor<Redistributor, 2> || redistributor<Redistributor, 3>,
-                "wraps holds a redistributor (distributed/concepts.hpp)");
+                "redistribution_by::wraps holds a redistributor (distributed/concepts.hpp)");
   using wrapped_policy<Self, Redistributor>::wrapped_policy;
   using wrapped_policy<Self, Redistributor>::wrapped;
 

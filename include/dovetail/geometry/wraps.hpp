@@ -11,8 +11,9 @@ namespace dovetail {
 
 /// Base of a geometry model that changes a part of what another one answers, or notes what it is asked. What
 /// `Model` knows beyond a `geometry_model`, planes and its volume, is known of it too.
-template <class Self, geometry_model Model>
+template <class Self, class Model>
 struct model_wraps : wrapped_policy<Self, Model> {
+  static_assert(geometry_model<Model>, "model_wraps holds a geometry_model (geometry/concepts.hpp)");
   using wrapped_policy<Self, Model>::wrapped_policy;
   using wrapped_policy<Self, Model>::wrapped;
 

@@ -16,8 +16,9 @@ namespace parallel {
 
 /// Base of an executor that does something around the tasks of another one: workers, threads, ranks and what
 /// is done once are those of `Executor`.
-template <class Self, executor Executor>
+template <class Self, class Executor>
 struct wraps : wrapped_policy<Self, Executor> {
+  static_assert(executor<Executor>, "parallel::wraps holds an executor (parallel/concepts.hpp)");
   using wrapped_policy<Self, Executor>::wrapped_policy;
   using wrapped_policy<Self, Executor>::wrapped;
 

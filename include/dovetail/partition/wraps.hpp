@@ -10,8 +10,10 @@
 namespace dovetail::partition {
 
 /// Base of a partitioner that changes what another one is given or gives, or measures it.
-template <class Self, graph_partitioner Partitioner>
+template <class Self, class Partitioner>
 struct wraps : wrapped_policy<Self, Partitioner> {
+  static_assert(graph_partitioner<Partitioner>,
+                "partition::wraps holds a graph_partitioner (partition/concepts.hpp)");
   using wrapped_policy<Self, Partitioner>::wrapped_policy;
   using wrapped_policy<Self, Partitioner>::wrapped;
 

@@ -9,8 +9,9 @@ namespace dovetail::remesh {
 
 /// Base of a surface mesher that changes what another one is given or gives: it may run in threads where
 /// `Mesher` may.
-template <class Self, surface_mesher Mesher>
+template <class Self, class Mesher>
 struct wraps : wrapped_policy<Self, Mesher> {
+  static_assert(surface_mesher<Mesher>, "remesh::wraps holds a surface_mesher (remesh/concepts.hpp)");
   using wrapped_policy<Self, Mesher>::wrapped_policy;
   using wrapped_policy<Self, Mesher>::wrapped;
 

@@ -11,8 +11,9 @@ namespace dovetail::sizing {
 /// Base of a sizing field that watches another one: it has the bounds and the features that `Field` has.
 /// Whoever changes values has a `smallest_size_in` and a `feature_size` of its own where `Field` has them,
 /// since those of `Field` are then not true.
-template <class Self, sizing_field Field>
+template <class Self, class Field>
 struct wraps : wrapped_policy<Self, Field> {
+  static_assert(sizing_field<Field>, "sizing::wraps holds a sizing_field (sizing/concepts.hpp)");
   using wrapped_policy<Self, Field>::wrapped_policy;
   using wrapped_policy<Self, Field>::wrapped;
 

@@ -7,19 +7,34 @@
 // near miss 4: a rule without penalties
 // first error 4: simplifier::wraps holds a simplification_rule
 // near miss 5: a redistributor without a call
-// first error 5: wraps holds a redistributor
+// first error 5: redistribution_by::wraps holds a redistributor
 // near miss 6: a format without files
 // first error 6: format_wraps holds a rank_format or a shared_rank_format
 // near miss 7: a solver's ranks in such a format
 // first error 7: rank_writer takes a rank_format or a shared_rank_format
 // near miss 8: sizes to adapt to that are none
 // first error 8: adapt<D> takes a size for each point, or a sizing_field
+// near miss 9: a partitioner without a call
+// first error 9: partition::wraps holds a graph_partitioner
+// near miss 10: an executor that runs nothing
+// first error 10: parallel::wraps holds an executor
+// near miss 11: a surface mesher without a call
+// first error 11: remesh::wraps holds a surface_mesher
+// near miss 12: a model without topology
+// first error 12: model_wraps holds a geometry_model
+// near miss 13: sizes that are none
+// first error 13: sizing::wraps holds a sizing_field
 #include "dovetail/distributed/wraps.hpp"
 #include "dovetail/files/wraps.hpp"
+#include "dovetail/geometry/wraps.hpp"
 #include "dovetail/improver/wraps.hpp"
 #include "dovetail/mesher/wraps.hpp"
+#include "dovetail/parallel/wraps.hpp"
+#include "dovetail/partition/wraps.hpp"
+#include "dovetail/remesh/wraps.hpp"
 #include "dovetail/simplification/wraps.hpp"
 #include "dovetail/sizing/uniform.hpp"
+#include "dovetail/sizing/wraps.hpp"
 #include "dovetail/solver/adapt.hpp"
 #include "dovetail/solver/rank_files.hpp"
 #include "dovetail/solver/wraps.hpp"
@@ -39,6 +54,16 @@ template <class P>
 struct my_redistributor : redistribution_by::wraps<my_redistributor<P>, P> {};
 template <class P>
 struct my_format : io::format_wraps<my_format<P>, P> {};
+template <class P>
+struct my_partitioner : partition::wraps<my_partitioner<P>, P> {};
+template <class P>
+struct my_executor : parallel::wraps<my_executor<P>, P> {};
+template <class P>
+struct my_surface_mesher : remesh::wraps<my_surface_mesher<P>, P> {};
+template <class P>
+struct my_model : model_wraps<my_model<P>, P> {};
+template <class P>
+struct my_size : sizing::wraps<my_size<P>, P> {};
 
 void call(const adaptable_mesh<3>& mesh) {
 #if NEAR_MISS == 1
@@ -57,6 +82,16 @@ void call(const adaptable_mesh<3>& mesh) {
   io::rank_writer<nothing>{};
 #elif NEAR_MISS == 8
   adapt<3>(mesh, nothing{}, parameters<>{});
+#elif NEAR_MISS == 9
+  my_partitioner<nothing>{};
+#elif NEAR_MISS == 10
+  my_executor<nothing>{};
+#elif NEAR_MISS == 11
+  my_surface_mesher<nothing>{};
+#elif NEAR_MISS == 12
+  my_model<nothing>{};
+#elif NEAR_MISS == 13
+  my_size<nothing>{};
 #else
   adapt<3>(mesh, uniform_size(1), parameters<>{});
 #endif
