@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "decomposition_options.hpp"
 #include "failure.hpp"
+#include "help_format.hpp"
 #include "mpirun_rank.hpp"
 #include "named_policies.hpp"
 #include "output.hpp"
@@ -24,6 +25,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,14 +44,6 @@ void refuse_empty_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options())
     if (option->get_items_expected_max() > 0)
       option->check(not_empty);
-}
-
-/// Newer versions of CLI11 wrap what stands at the end of a help, and take its indents away, unless told not
-/// to.
-template <class Formatter>
-void keep_lines_of_footers(Formatter& formatter) {
-  if constexpr (requires { formatter.enable_footer_formatting(false); })
-    formatter.enable_footer_formatting(false);
 }
 
 /// Command lines at the end of a command's help.
@@ -249,7 +243,7 @@ struct parser {
 
   parser() {
     app.name("dovetail");
-    keep_lines_of_footers(*app.get_formatter());
+    app.formatter(std::make_shared<help_format>());
     app.set_version_flag("--version", std::string("dovetail ") + version);
     app.require_subcommand(1);
     app.footer("Exit codes:\n"

@@ -57,6 +57,12 @@ sigset_t set_of(const std::vector<int>& signals) {
   return set;
 }
 
+/// Whether there is a limit to memory: a library may crash where it gets no more.
+bool memory_is_limited() {
+  rlimit allowed{};
+  return ::getrlimit(RLIMIT_AS, &allowed) == 0 && allowed.rlim_cur != RLIM_INFINITY;
+}
+
 std::string line_of(int signal) {
   if (lines != nullptr && lines->stack_is_used_up)
     return lines->crashed[0] != 0 ? lines->out_of_stack.data()
@@ -271,7 +277,12 @@ risky_step::risky_step(const std::string& what, const std::string& advice, doubl
        lines->endless);
   copy(what + " was killed, perhaps for want of memory", lines->killed);
   copy(what + ": " + detail::out_of_stack, lines->out_of_stack);
-  copy(what + " crashed; " + advice, lines->crashed);
+  copy(what +
+           (memory_is_limited() ? " crashed, perhaps for want of memory, to which there is a limit: allow "
+                                  "more (ulimit -v); or "
+                                : " crashed; ") +
+           advice,
+       lines->crashed);
 }
 
 risky_step::~risky_step() {

@@ -22,10 +22,10 @@ endif()
 
 option(DOVETAIL_REQUIRE_ALL_TESTS "A test that lacks a library or tool fails instead of being skipped" OFF)
 
-# What OpenMPI needs to run in containers, as root, with more ranks than processors.
+# What OpenMPI needs to run in containers, as root, with more ranks than processors (up to version 4, and from 5 on).
 set(dovetail_mpi_environment
   OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-  OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none)
+  PRTE_MCA_mapby=:oversubscribe OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none)
 
 # A ctest entry that only says why the test is not there.
 function(dovetail_skipped_test name reason)

@@ -57,7 +57,7 @@ told=0
 for more in 1000 10000 20000 40000 60000; do
   what="dovetail mesh large.step, ulimit -v $((least + more))"
   (ulimit -v $((least + more)) && "$driver" mesh large.step --size 1 --out o --quiet) >"$sandbox/stdout" 2>"$sandbox/stderr"
-  grep -qE "damaged|truncated|export it again|crashed" "$sandbox/stderr" && fault "the file is blamed"
+  grep -E "damaged|truncated|export it again|crashed" "$sandbox/stderr" | grep -qv "want of memory" && fault "the file is blamed"
   grep -qiE "memory" "$sandbox/stderr" && told=$((told + 1))
 done
 ((told >= 3)) || fault "that memory is short is not said"

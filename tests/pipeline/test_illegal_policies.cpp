@@ -374,6 +374,13 @@ TEST_CASE("A rule that propagates what is no number is refused") {
   CHECK_THROWS_AS(with({1, no_number}), usage_error);
 }
 
+TEST_CASE("A negative number of subdomains is refused") {
+  generate_options options;
+  options.subdomains = -3;
+  CHECK_THROWS_WITH_AS(generate<2>(unit_square(), uniform_size(0.5), parameters<>{}.with_options(options)),
+                       doctest::Contains("subdomains is -3"), usage_error);
+}
+
 TEST_CASE("Sizes that are no sizes somewhere are refused, with the place") {
   for (const double bad : {no_number, -1.0, 0.0, std::numeric_limits<double>::infinity()}) {
     CAPTURE(bad);

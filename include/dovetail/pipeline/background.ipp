@@ -151,6 +151,9 @@ mesh_plan plan_mesh(const element_prediction& predicted, double per_subdomain,
   if (!(predicted.elements <= most_elements))
     throw sizing_error("the sizes predict about " + number_text(predicted.elements, 3) +
                        " elements, more than any machine can hold; give larger sizes");
+  if (options.subdomains < 0)
+    throw usage_error("generate_options::subdomains is " + std::to_string(options.subdomains) +
+                      "; give a number of subdomains, or 0 for as many as suit the mesh");
   if (options.subdomains > std::max(1.0, predicted.elements))
     throw sizing_error(std::to_string(options.subdomains) + " subdomains are more than the about " +
                        std::to_string(std::llround(predicted.elements)) +

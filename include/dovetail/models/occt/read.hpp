@@ -179,7 +179,8 @@ inline attributed_shape read_shape(const std::filesystem::path& path, const occt
   const std::string content = read_file(path);
   const file_format format = format_of_content(std::string_view(content).substr(0, head_size));
   if (format == file_format::unknown)
-    throw input_error(source + ": neither STEP, IGES nor BREP; convert the model to one of these");
+    throw input_error(source + ": neither STEP, IGES nor BREP; convert the model to one of these, or to "
+                               "triangles in a file that ends in .stl, .obj, .off or .ply");
   const auto read = [&] { return read_directly(path, options.unit, format, content); };
   if (options.first_reader)
     require_readable(source, *options.first_reader, read,
