@@ -33,11 +33,16 @@ bool for_each_in(const fs::path& folder, const F& f) {
   return !problem;
 }
 
+/// As Open MPI calls them up to version 4, and from 5 on.
+bool is_segment(const std::string& name) {
+  return name.starts_with("vader_segment.") || name.starts_with("sm_segment.");
+}
+
 segments segments_in(const fs::path& folder) {
   segments found;
   for_each_in(folder, [&](const fs::path& entry) {
     struct stat file {};
-    if (entry.filename().string().starts_with("vader_segment.") && ::lstat(entry.c_str(), &file) == 0 &&
+    if (is_segment(entry.filename().string()) && ::lstat(entry.c_str(), &file) == 0 &&
         S_ISREG(file.st_mode) && file.st_uid == ::geteuid())
       found.push_back({entry, file.st_ino});
   });

@@ -19,6 +19,7 @@ or --vary='--subdomains 8', vary one of them without the others. Memory hardly d
 import argparse
 import itertools
 import os
+import pathlib
 import shlex
 import subprocess
 import sys
@@ -41,8 +42,8 @@ def children_of(processes):
     found = []
     for process in processes:
         try:
-            with open(f"/proc/{process}/task/{process}/children", encoding="ascii") as children:
-                found += map(int, children.read().split())
+            for of_thread in pathlib.Path(f"/proc/{process}/task").glob("*/children"):
+                found += map(int, of_thread.read_text(encoding="ascii").split())
         except (FileNotFoundError, ProcessLookupError):
             pass
     return found

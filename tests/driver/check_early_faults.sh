@@ -15,10 +15,6 @@ start() {
   process=$!
   relays=()
 }
-children() { # sets $found
-  found=
-  { read -r found <"/proc/$1/task/$1/children"; } 2>/dev/null
-}
 # The relays that are there by now, by rank.
 find_relays() {
   local relay rank
@@ -31,7 +27,7 @@ find_relays() {
 # How many relays the computing process of this one watches.
 watched_by() {
   children "$1"
-  readlink "/proc/${found:-none}/fd/"* 2>/dev/null | grep -c pidfd
+  readlink "/proc/${found%% *}/fd/"* 2>/dev/null | grep -c pidfd
 }
 await_others_of() {
   local rank begun=$SECONDS
@@ -85,12 +81,13 @@ done
 # Segments of shared memory, of which those of other programs' runs are no matter.
 what="mpirun killed"
 mesh[3]=0.01 # it takes long
+[[ $("$mpirun" --version) == *OpenRTE* ]] || export OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,sm # else from version 5 on there may be none
 start 2
 segments=()
 until ((${#segments[@]} == 2)); do
   kill -0 $process 2>/dev/null || { fault "it ends by itself" && finish; }
   find_relays
-  mapfile -t segments < <(for relay in "${relays[@]}"; do grep -ho '/dev/shm/vader_segment\..*' "/proc/$relay/maps"; done 2>/dev/null | sort -u)
+  mapfile -t segments < <(for relay in "${relays[@]}"; do grep -ho '/dev/shm/\(vader\|sm\)_segment\..*' "/proc/$relay/maps"; done 2>/dev/null | sort -u)
 done
 kill -KILL $process
 wait $process 2>/dev/null

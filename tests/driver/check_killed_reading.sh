@@ -64,19 +64,16 @@ starters=("")
 hash_of() {
   sed -n 's/^ *"mesh_hash": "\([^"]*\).*/\1/p' "$1/report.json"
 }
-first_child() { # sets $child, without a program that takes time to start
-  child=
-  { read -r child <"/proc/$1/task/$1/children"; } 2>/dev/null
-  child=${child%% *}
+first_child() { # sets $child
+  children "$1"
+  child=${found%% *}
 }
 # The process that supervises one: that of the command, or a relay, which is mpirun's child.
 find_supervisor() {
   supervisor=$process
   [[ $starter ]] || return
-  local relays=
-  { read -r relays <"/proc/$process/task/$process/children"; } 2>/dev/null
-  relays=${relays% } # they are listed with a space behind each
-  supervisor=${relays##* }
+  children "$process"
+  supervisor=${found##* }
 }
 # Whether it has the file open while another process waits to take its place.
 is_reading() {
@@ -134,7 +131,7 @@ for starter in "${starters[@]}"; do
   wait_for_process
   ((status == 1)) || fault "exit code is $status, not 1"
   [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
-  grep -qE "^dovetail: (rank 1: )?$file: reading and healing with Open CASCADE was killed, perhaps for want of memory" "$sandbox/stderr" ||
+  grep -qE "^dovetail: (rank [01]: )?$file: reading and healing with Open CASCADE was killed, perhaps for want of memory" "$sandbox/stderr" ||
     fault "the line does not say what was killed"
   [[ -z $(find several -type f) ]] || fault "left behind: $(find several -type f)"
 done

@@ -31,12 +31,7 @@ fresh() {
   rm -rf "${sandbox:?}/$1" && mkdir "$sandbox/$1"
 }
 
-# The processes of a rank: its relay is mpirun's child, that one's child computes, whose children work. No program is
-# started to look for them, since a stage may be short.
-children() { # sets $found
-  found=
-  { read -r found <"/proc/$1/task/$1/children"; } 2>/dev/null
-}
+# The processes of a rank: its relay is mpirun's child, that one's child computes, whose children work.
 # find_processes: sets $relays and $computing, by rank.
 find_processes() {
   local relay rank

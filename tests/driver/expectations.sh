@@ -51,6 +51,18 @@ expect_usage_error() {
   ((status == 2)) || fault "exit code is $status, not 2"
 }
 
+# children <process>: sets $found to those of all its threads, from several of which Open MPI 5 starts ranks. No program is
+# started for it, since what is looked for may end soon.
+children() {
+  local of_thread list
+  found=
+  for list in /proc/"$1"/task/*/children; do
+    of_thread=
+    { read -r of_thread <"$list"; } 2>/dev/null
+    found+=${of_thread:+${found:+ }$of_thread}
+  done
+}
+
 # expect_success <arguments...>
 expect_success() {
   run_driver "$@"

@@ -41,9 +41,11 @@ private:
 TEST_CASE("a segment that no process has is removed, and no file of another name") {
   const folder_of_segments folder;
   const auto dead = folder.with("vader_segment.here.0.5a0d0001.3");
+  const auto of_version_5 = folder.with("sm_segment.here.0.5a0d0001.3");
   const auto other = folder.with("vader.5a0d0001.3");
   folder.remove_dead();
   CHECK_FALSE(std::filesystem::exists(dead));
+  CHECK_FALSE(std::filesystem::exists(of_version_5));
   CHECK(std::filesystem::exists(other));
 }
 
