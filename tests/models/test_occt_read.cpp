@@ -3,6 +3,7 @@
 #include "dovetail/models/occt/repair.hpp"
 #include "dovetail/models/occt/xcaf.hpp"
 #include "dovetail/models/occt_model.hpp"
+#include "dovetail/parallel/wraps.hpp"
 #include "files/scratch_folder.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -15,12 +16,14 @@
 #include <STEPControl_Writer.hxx>
 #include <doctest/doctest.h>
 
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -166,6 +169,17 @@ TEST_CASE(
   }
 }
 
+/// Workers in which the library crashes, whatever they are to do.
+struct crashing : parallel::wraps<crashing, parallel::processes> {
+  std::vector<task_outcome> run(std::size_t count, const task_function&, const run_options& options) const {
+    const auto crash = [](std::size_t) {
+      std::raise(SIGSEGV);
+      return byte_buffer();
+    };
+    return wrapped.run(count, crash, options);
+  }
+};
+
 TEST_CASE("what a worker does not survive is a damaged file") {
   const scratch_folder folder("worker");
   write_named_step(folder / "block.step", "INCH");
@@ -173,16 +187,10 @@ TEST_CASE("what a worker does not survive is a damaged file") {
   const occt_model there = read_occt_model(folder / "block.step", {.first_reader = worker}).model;
   CHECK(there.topology().solids.at(0).name == "block");
 
-  // OCCT crashes on points whose keyword it does not know.
-  std::string damaged = file_content(folder / "block.step");
-  for (std::size_t at = damaged.find("CARTESIAN_POINT"); at != std::string::npos;
-       at = damaged.find("CARTESIAN_POINT", at))
-    damaged[at] = 'c';
-  write_content(folder / "crash.step", damaged);
-  CHECK_THROWS_WITH_AS(read_occt_model(folder / "crash.step", {.first_reader = worker}),
-                       doctest::Contains("crash.step: Open CASCADE crashed while reading it"), input_error);
+  CHECK_THROWS_WITH_AS(read_occt_model(folder / "block.step", {.first_reader = crashing{worker}}),
+                       doctest::Contains("block.step: Open CASCADE crashed while reading it"), input_error);
   // An error's text comes back as it was.
-  write_content(folder / "cut.step", damaged.substr(0, 900));
+  write_content(folder / "cut.step", file_content(folder / "block.step").substr(0, 900));
   CHECK_THROWS_WITH_AS(read_occt_model(folder / "cut.step", {.first_reader = worker}),
                        doctest::Contains("cut.step: the STEP file is truncated"), input_error);
 }
@@ -213,8 +221,9 @@ TEST_CASE("a file that wants more memory than there is, is not called damaged") 
   for (const std::uint64_t megabytes : {1, 4, 8, 12, 16, 24, 32}) {
     CAPTURE(megabytes);
     const std::string failure = end_with_limit(folder / "large.step", megabytes << 20);
-    CAPTURE(failure); // where Open CASCADE wants memory while it cleans up it ends the process by itself
-    CHECK((failure == "out of memory" || failure.find("signal 6") != std::string::npos));
+    CAPTURE(failure); // where Open CASCADE wants memory while it cleans up it ends the process, or crashes
+    CHECK((failure == "out of memory" || failure.find("signal 6") != std::string::npos ||
+           failure.find("signal 11") != std::string::npos));
     told += failure == "out of memory" ? 1 : 0;
   }
   CHECK(told >= 4);

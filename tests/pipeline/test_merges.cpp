@@ -88,6 +88,19 @@ struct decomposed_shell {
   decomposition& pieces = divided.pieces;
 };
 
+/// A thin shell where one merge leads to another. How many parts that takes is a matter of the version of
+/// METIS.
+std::unique_ptr<decomposed_shell> shell_of_many_rounds() {
+  for (const int parts : {24, 48, 64, 80}) {
+    auto given = std::make_unique<decomposed_shell>(0.975, parts);
+    auto rounds = given->rounds(1);
+    if (rounds.realize_boundaries() && rounds.intersection().get("rounds") > 2)
+      return given;
+  }
+  REQUIRE_MESSAGE(false, "no merge leads to another");
+  return {};
+}
+
 /// Folds each patch over at an inner point.
 patch_mesh fold(const any_surface& surface, const patch_boundary& boundary, const any_sizing& size) {
   patch_mesh mesh = remesh::patch_remesher{}(surface, boundary, size);
@@ -218,12 +231,13 @@ TEST_CASE("The measuring of interface angles is a step of its own, with its time
 }
 
 TEST_CASE("Crossing interfaces of a thin shell are merged until none is left, each merge counted once") {
-  decomposed_shell given(0.975, 24);
+  const auto shell = shell_of_many_rounds();
+  decomposed_shell& given = *shell;
   auto rounds = given.rounds(1);
   const auto result = rounds.realize_boundaries().value();
   const merge_account& account = rounds.merges();
   CHECK(plan_for(result.fine).empty());
-  CHECK(rounds.intersection().get("rounds") > 2); // one merge led to another
+  CHECK(rounds.intersection().get("rounds") > 2);
   std::map<local_id, std::set<local_id>> made_of;
   std::map<local_id, std::set<local_id>> went_to;
   for (std::size_t e = 0; e < result.subdomain_of_element.size(); ++e) {
@@ -383,7 +397,7 @@ TEST_CASE("Interfaces move away from small angles, but not to where something cr
   CHECK(stays.summary.get("repartitioned") == 0);
   CHECK(stays.summary.get("repartition_seconds") == 0);
 
-  given.want(24);
+  given.want(28);
   given.given.mesh_surface = {};
   auto rounds = given.rounds(0.05);
   const auto goes = rounds.realize_boundaries().value();
@@ -461,7 +475,8 @@ TEST_CASE("Sheets that lie upon each other end in an error after work in proport
 }
 
 TEST_CASE("After merges a search near new patches finds what a search of everything does") {
-  decomposed_shell given(0.975, 24);
+  const auto shell = shell_of_many_rounds();
+  decomposed_shell& given = *shell;
   merge_account account(given.pieces.parts, 1);
   skeleton_store store(std::make_shared<entity_store>());
   std::vector<local_id>& part = given.pieces.part_of_element;
