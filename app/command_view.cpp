@@ -146,6 +146,14 @@ struct asked_picture {
   }
 };
 
+/// So no mesh, which may be one of several in a folder, is overwritten. Throws `command_line_error`.
+void check_is_html(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  if (extension != ".html" && extension != ".htm")
+    throw command_line_error("--out " + file.string() +
+                             ": pages are written to files with the extension .html or .htm");
+}
+
 /// Throws `command_line_error`.
 void check_is_png(const std::filesystem::path& file) {
   if (extension_of(file) != ".png")
@@ -247,6 +255,8 @@ int run_view(const view_options& options) {
   if (options.out.empty() && options.png.empty())
     throw command_line_error("view: give -o with an HTML file, or --png with a picture, or both");
   const asked_picture asked(options);
+  if (!options.out.empty())
+    check_is_html(options.out);
   if (!options.png.empty())
     check_is_png(options.png);
   if (!options.out.empty() && !has_three_js())

@@ -120,6 +120,12 @@ for name in p.jpg p png p.png.txt; do
   expect_usage_error "--png $name: pictures are written to files with the extension \.png" view "$inputs/solid" --png "$name"
 done
 expect_success view "$inputs/solid" --png P.PNG --size 32x20
+cp "$inputs/solid/mesh.msh" "$inputs/solid/other.msh"
+for name in "$inputs/solid/other.msh" p.vtu p html p.html.gz; do
+  expect_usage_error "--out .*: pages are written to files with the extension \.html or \.htm" view "$inputs/solid/mesh.pvtu" -o "$name"
+done
+cmp "$inputs/solid/mesh.msh" "$inputs/solid/other.msh" || fault "another mesh is overwritten"
+rm "$inputs/solid/other.msh"
 expect_usage_error '--cut w: give' view "$inputs/solid" --png p.png --cut w
 expect_usage_error '--cut x=: give' view "$inputs/solid" --png p.png --cut x=
 expect_usage_error '--under' view "$inputs/solid" --png p.png --under 200
@@ -135,6 +141,7 @@ if grep -q "install libjs-three" "$sandbox/stderr"; then
   expect_error 'install libjs-three' view "$inputs/solid" -o page.html --png p.png
   finish
 fi
+expect_success view "$inputs/solid" -o PAGE.HTM
 for mesh in solid solid/mesh.msh shell; do
   expect_success view "$inputs/$mesh" -o page.html --png picture.png
   page=$sandbox/work/page.html
