@@ -222,7 +222,7 @@ public:
       const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
       if (const std::string much = failure ? "" : text_of_memory(bytes, memory_of_machine()); !much.empty())
         std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), much.c_str());
-      io::loaded_mesh loaded = read_any_mesh(file);
+      io::loaded_mesh loaded = read_any_mesh(file, io::element_order::any);
       warn_of_part(loaded, file);
       whole_ = scene_of(std::move(loaded));
     } else if (!pieces_->elsewhere.empty()) {
@@ -230,6 +230,9 @@ public:
     }
     if (scene().count == 0)
       throw input_error(file.string() + ": has no tetrahedra or triangles to show");
+    if (scene().second_order)
+      std::printf("%s: elements of second order are drawn by their corners, with straight edges\n",
+                  file.c_str());
   }
   const view_scene& scene() const { return pieces_ ? pieces_->scene : whole_; }
 

@@ -5,6 +5,7 @@
 #include "view_sides.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 
@@ -149,8 +150,12 @@ std::vector<local_id> elements_that_fit(const view_scene& scene, std::size_t roo
 } // namespace
 
 view_scene scene_of(io::loaded_mesh loaded) {
+  const bool second_order = io::detail::has_middles(loaded);
+  if (second_order)
+    loaded = io::corners_of(loaded);
   view_scene scene = is_of_triangles(loaded) ? scene_of_triangles(std::move(loaded))
                                              : scene_of_tetrahedra(std::move(loaded));
+  scene.second_order = second_order;
   finish_scene(scene);
   return scene;
 }

@@ -44,6 +44,23 @@ for how in "${other_files[@]}"; do
   expect_success view "$inputs/other" --png picture.png --size 320x200 --colour group
   cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups with $how"
 done
+# Of second order the corners are drawn, as of the mesh of first order, whether it is read whole or in pieces.
+expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 --format vtu,msh --order 2 --quiet
+mv "$sandbox/work/out" "$inputs/quadratic"
+for mesh in mesh.pvtu mesh.msh; do
+  expect_success view "$inputs/quadratic/$mesh" --png picture.png --size 320x200 --cut x --colour angle
+  grep -q "$mesh: elements of second order are drawn by their corners, with straight edges$" "$sandbox/stdout" || fault "the order is not said"
+  [[ -s $sandbox/stderr ]] && fault "it warns"
+  cmp "$sandbox/work/picture.png" "$inputs/first.png" || fault "another picture of second order"
+  expect_success view "$inputs/quadratic/$mesh" --png picture.png --size 320x200 --colour group
+  cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups of second order"
+done
+expect_success mesh "$inputs/cube.off" --dimension 2 -s 0.25 --subdomains 2 --order 2 --quiet
+mv "$sandbox/work/out" "$inputs/quadratic_shell"
+expect_success view "$inputs/quadratic_shell" --png picture.png --size 320x200
+cp "$sandbox/work/picture.png" "$inputs/shell.png"
+expect_success view "$inputs/shell" --png picture.png --size 320x200
+cmp "$sandbox/work/picture.png" "$inputs/shell.png" || fault "another picture of triangles of second order"
 cp -r "$inputs/solid" "$inputs/alone"
 rm "$inputs/alone/surface.vtp"
 expect_success view "$inputs/alone/mesh.pvtu" --png picture.png --size 320x200 --colour group
@@ -160,6 +177,9 @@ grep -qE "only .*of $elements elements inside, half of them the worst; see --mos
   fault "it is not said what is left out"
 grep -q "of $elements elements inside" "$sandbox/work/page.html" || fault "the page does not say what is left out"
 largest "$inputs/all.html" "$sandbox/work/page.html"
+grep -q '"secondOrder":false' "$sandbox/work/page.html" || fault "the page is said to be of second order"
+expect_success view "$inputs/quadratic" -o page.html
+grep -q '"secondOrder":true' "$sandbox/work/page.html" || fault "the page does not know its order"
 expect_success view "$inputs/solid" -o page.html --report "$inputs/marks.json"
 grep -qF '"text":"9.5\u00b0 of a face, forced; CAD: \u003cface> 3"' "$sandbox/work/page.html" || fault "the page has no marks"
 expect_usage_error '--report' view "$inputs/solid" -o "$inputs/marks.json" --report "$inputs/marks.json"
