@@ -191,12 +191,14 @@ std::string text_of_left_out(const view_scene& scene, const view_part& part) {
   std::string text;
   const auto add = [&](std::size_t here, std::size_t all, const std::string& what) {
     if (here < all)
-      text += (text.empty() ? "" : ", ") + std::to_string(here) + " of " + std::to_string(all) + what;
+      text += (text.empty() ? "" : ", ") + (here == 0 ? "none" : "only " + std::to_string(here)) + " of " +
+              std::to_string(all) + what;
   };
   add(part.triangles.size(), scene.triangles.size(), " triangles of the surface and between pieces");
   if (scene.dimension == 3)
-    add(part.elements.size(), scene.count, " elements inside, half of them the worst");
-  return text.empty() ? text : "only " + text;
+    add(part.elements.size(), scene.count,
+        part.elements.empty() ? " elements inside" : " elements inside, half of them the worst");
+  return text;
 }
 
 std::optional<float> complete_under(const view_scene& scene, const view_part& part) {

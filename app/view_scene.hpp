@@ -69,8 +69,8 @@ float least_angle_of(const std::array<vec3, N>& corners) {
   return angle > 0 ? angle : 0;
 }
 
-/// Takes the corners of the tetrahedra, or of the triangles where there are none. O(n log n) in time. Throws `mesh_error` where
-/// an element names a point that there is not.
+/// Takes the corners of the tetrahedra, or of the triangles where there are none. O(n log n) in time. Throws
+/// `mesh_error` where an element names a point that there is not.
 view_scene scene_of(io::loaded_mesh loaded);
 
 /// Outline and centres of a scene that has all else.
