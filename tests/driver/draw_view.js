@@ -25,6 +25,7 @@ for (const [attributes, element] of tags) {
   const id = attributes.match(/ id="(\w+)"/);
   if (id) byId[id[1]] = element;
 }
+byId.colours.value = "group"; // as a browser chooses the first option
 const frames = [], rendered = [];
 const document = {body: new stand_in("body"), title: "", getElementById: id => byId[id], createElement: tag => new stand_in(tag),
   querySelectorAll: () => tags.filter(([attributes]) => attributes.includes("data-from")).map(([, element]) => element)};
