@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/files/piece_visitor.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/mesh/loaded_mesh.hpp"
 
 #include <filesystem>
@@ -28,5 +29,14 @@ bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_vi
 /// As `io::read_mesh`, of any format.
 io::loaded_mesh read_any_mesh(const std::filesystem::path& path,
                               io::element_order elements = io::element_order::first);
+
+/// Calls `f` with the mesh of the corners.
+template <class F>
+void with_corners(const io::loaded_mesh& mesh, const F& f) {
+  if (io::detail::has_middles(mesh))
+    f(io::corners_of(mesh));
+  else
+    f(mesh);
+}
 
 } // namespace dovetail::app

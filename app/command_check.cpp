@@ -85,15 +85,6 @@ int print_validity(const std::string& faults, const std::string& file, const mes
   return exit_ok;
 }
 
-/// Calls `f` with the mesh of the corners.
-template <class F>
-void with_corners(const io::loaded_mesh& mesh, const F& f) {
-  if (io::detail::has_middles(mesh))
-    f(io::corners_of(mesh));
-  else
-    f(mesh);
-}
-
 /// Of a mesh of several subdomains.
 void print_at_interfaces(const std::optional<quality_at_interfaces>& found, int dimension) {
   if (found)

@@ -1,4 +1,5 @@
 #include "any_mesh_file.hpp"
+#include "colours.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "mesh_files.hpp"
@@ -114,6 +115,14 @@ std::optional<asked_cut> asked_section(const std::string& cut) {
   return asked;
 }
 
+/// The lowest and the highest place that a section along an axis can have, with pieces apart.
+std::pair<double, double> range_along(vec3 axis, const box3& box, double explode) {
+  const vec3 half = 0.5 * (1 + explode) * (box.upper - box.lower);
+  const double reach = std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
+  const double middle = dot(axis, box.center());
+  return {middle - reach, middle + reach};
+}
+
 /// The plane, with its normal to the viewer.
 view_plane plane_of(const asked_cut& cut, const view_scene& scene, vec3 towards) {
   const vec3 axis = cut.axis.value_or(normalized(towards));
@@ -144,7 +153,26 @@ struct asked_picture {
       wishes.cut = plane_of(*cut, scene, wishes.towards);
     return wishes;
   }
+  /// Where the section meets nothing.
+  void warn_of_section(const view_options& options, const view_wishes& wishes, const box3& box) const {
+    if (!cut || !cut->place)
+      return;
+    const auto [lowest, highest] =
+        range_along(cut->axis.value_or(normalized(wishes.towards)), box, options.explode);
+    if (*cut->place < lowest || *cut->place > highest)
+      std::fprintf(stderr, "warning: %s: the section %s is outside of the mesh (%s from %g to %g)\n",
+                   options.png.c_str(), options.cut.c_str(),
+                   options.cut.substr(0, options.cut.find('=')).c_str(), lowest, highest);
+  }
 };
+
+/// So no mesh, which may be one of several in a folder, is overwritten. Throws `command_line_error`.
+void check_is_html(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  if (extension != ".html" && extension != ".htm")
+    throw command_line_error("--out " + file.string() +
+                             ": pages are written to files with the extension .html or .htm");
+}
 
 /// Throws `command_line_error`.
 void check_is_png(const std::filesystem::path& file) {
@@ -181,6 +209,8 @@ void write_picture(const view_scene& scene, view_wishes wishes, const view_optio
   file.bytes(png.data(), png.size());
   file.commit();
   std::printf("%s: %d x %d pixels\n", options.png.c_str(), wishes.width, wishes.height);
+  if (shows_angles(wishes))
+    std::printf("colours of least angles: %s\n", text_of_angle_colours().c_str());
   if (!options.under)
     return;
   std::printf("%zu of %zu elements have an angle under %g degrees\n", count, scene.count, *options.under);
@@ -191,11 +221,25 @@ void write_picture(const view_scene& scene, view_wishes wishes, const view_optio
                  options.png.c_str());
 }
 
-void say_marks(const view_marks& marks, const box3& box) {
+/// How marks look, or why there are none.
+const char* look_of_marks(const view_options& options, const view_marks& marks) {
+  if (marks.all.empty())
+    return "";
+  if (!options.png.empty() && options.explode > 0)
+    return "; none are in the picture, since its pieces are apart";
+  return "; those behind the surface are hollow";
+}
+
+void say_marks(const view_marks& marks, const view_options& options, const view_scene& scene) {
   if (marks.report.empty())
     return;
-  std::printf("%s: %s\n", marks.report.c_str(), text_of(marks).c_str());
-  if (const std::size_t outside = marks_outside(marks, box); outside > 0)
+  std::printf("%s: %s%s\n", marks.report.c_str(), text_of(marks).c_str(), look_of_marks(options, marks));
+  if (marks.elements > 0 && marks.elements != scene.count)
+    std::fprintf(stderr,
+                 "warning: %s: it is of a mesh of %zu elements, and this one has %zu; is this the report of "
+                 "its run?\n",
+                 marks.report.c_str(), marks.elements, scene.count);
+  if (const std::size_t outside = marks_outside(marks, scene.box); outside > 0)
     std::fprintf(stderr,
                  "warning: %s: %zu of %zu marks are outside of the mesh; is this the report of its run?\n",
                  marks.report.c_str(), outside, marks.all.size());
@@ -214,7 +258,7 @@ public:
       const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
       if (const std::string much = failure ? "" : text_of_memory(bytes, memory_of_machine()); !much.empty())
         std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), much.c_str());
-      io::loaded_mesh loaded = read_any_mesh(file);
+      io::loaded_mesh loaded = read_any_mesh(file, io::element_order::any);
       warn_of_part(loaded, file);
       whole_ = scene_of(std::move(loaded));
     } else if (!pieces_->elsewhere.empty()) {
@@ -222,6 +266,9 @@ public:
     }
     if (scene().count == 0)
       throw input_error(file.string() + ": has no tetrahedra or triangles to show");
+    if (scene().second_order)
+      std::printf("%s: elements of second order are drawn by their corners, with straight edges\n",
+                  file.c_str());
   }
   const view_scene& scene() const { return pieces_ ? pieces_->scene : whole_; }
 
@@ -247,6 +294,8 @@ int run_view(const view_options& options) {
   if (options.out.empty() && options.png.empty())
     throw command_line_error("view: give -o with an HTML file, or --png with a picture, or both");
   const asked_picture asked(options);
+  if (!options.out.empty())
+    check_is_html(options.out);
   if (!options.png.empty())
     check_is_png(options.png);
   if (!options.out.empty() && !has_three_js())
@@ -263,10 +312,11 @@ int run_view(const view_options& options) {
     write_page(shown.scene(), options, marks);
   if (!options.png.empty()) {
     const view_wishes wishes = asked.wishes(shown.scene(), options, marks);
+    asked.warn_of_section(options, wishes, shown.scene().box);
     const std::size_t count = shown.prepare(wishes);
     write_picture(shown.scene(), wishes, options, count);
   }
-  say_marks(marks, shown.scene().box);
+  say_marks(marks, options, shown.scene());
   return exit_ok;
 }
 

@@ -148,6 +148,8 @@ void output_claim::take_file(const named_file& output) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     throw io_error(what + ": cannot write the file, there is a folder of this name");
+  if (const auto folder = file.parent_path(); !folder.empty() && !std::filesystem::exists(folder, ignored))
+    folders_.emplace_back(folder); // which goes again if nothing is written
   const auto part = temporary_name(file);
   if (!part) {
     if (::access(file.c_str(), W_OK) != 0)

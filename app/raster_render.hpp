@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail::app {
@@ -30,15 +31,18 @@ namespace detail {
 class raster_canvas {
 public:
   raster_canvas(int width, int height, const raster_view& view, rgb background)
-      : image_(width, height, background), view_(view), scale_(height / view.height),
-        depths_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                -std::numeric_limits<float>::infinity()) {}
+      : image_(width, height, background), background_(background), view_(view), scale_(height / view.height),
+        depths_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), nothing_there) {}
 
-  void draw(const raster_triangle& triangle) {
+  /// \param strength from 0, the background, to 1
+  void draw(const raster_triangle& triangle, double strength = 1) {
     const auto& p = triangle.corners;
     const vec3 normal = normalized(cross(p[1] - p[0], p[2] - p[0]));
-    fill({on_canvas(p[0]), on_canvas(p[1]), on_canvas(p[2])}, lit(triangle.colour, normal, view_));
+    fill({on_canvas(p[0]), on_canvas(p[1]), on_canvas(p[2])},
+         mixed(background_, lit(triangle.colour, normal, view_), strength));
   }
+  /// What is drawn from now on hides all that is there.
+  void forget_depths() { std::fill(depths_.begin(), depths_.end(), nothing_there); }
 
   /// A line is two triangles across the view, a little before its place so that the triangles it bounds do
   /// not hide it, and by its rank before other lines there.
@@ -55,8 +59,17 @@ public:
   }
 
   const raster_image& image() const { return image_; }
+  /// Of the middle samples of pixels of `samples` x `samples`.
+  std::vector<float> depths_of_pixels(int samples) const {
+    std::vector<float> depths;
+    for (int y = samples / 2; y < image_.height(); y += samples)
+      for (int x = samples / 2; x < image_.width(); x += samples)
+        depths.push_back(depths_[index(x, y)]);
+    return depths;
+  }
 
 private:
+  static constexpr float nothing_there = -std::numeric_limits<float>::infinity();
   static constexpr double line_lift = 0.002; ///< of the picture's height
 
   /// x to the right and y down in samples; z towards the viewer in lengths.
@@ -91,15 +104,20 @@ private:
   }
 
   void colour_sample(int x, int y, double depth, rgb colour) {
-    float& nearest = depths_[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width()) +
-                             static_cast<std::size_t>(x)];
+    float& nearest = depths_[index(x, y)];
     if (static_cast<float>(depth) <= nearest)
       return;
     nearest = static_cast<float>(depth);
     image_.at(x, y) = colour;
   }
 
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width()) +
+           static_cast<std::size_t>(x);
+  }
+
   raster_image image_;
+  rgb background_;
   raster_view view_;
   double scale_; ///< samples per unit of length
   std::vector<float> depths_;
@@ -107,19 +125,36 @@ private:
 
 } // namespace detail
 
+/// A picture, and how near to the viewer its triangles are.
+struct raster_picture {
+  raster_image image;
+  std::vector<float> depths; ///< per pixel: length towards the viewer from the view's centre; or -infinity
+};
+
 /// A picture of a scene. `samples` x `samples` samples make a pixel. Of things at the same depth the first
 /// drawn is seen: triangles before lines, each in their order. Time grows with the area of all triangles.
 /// Throws `usage_error` when a number of pixels or samples is not positive.
-inline raster_image render(const raster_scene& scene, const raster_view& view, int width, int height,
-                           int samples = 3) {
+inline raster_picture render_with_depths(const raster_scene& scene, const raster_view& view, int width,
+                                         int height, int samples = 3) {
+  constexpr double pale = 0.3;
   if (samples < 1)
     throw usage_error("a picture with " + std::to_string(samples) + " samples a pixel; give at least 1");
   detail::raster_canvas canvas(samples * width, samples * height, view, scene.background);
+  for (const auto& triangle : scene.backdrop)
+    canvas.draw(triangle, pale);
+  canvas.forget_depths();
   for (const auto& triangle : scene.triangles)
     canvas.draw(triangle);
+  std::vector<float> depths = canvas.depths_of_pixels(samples);
   for (const auto& line : scene.lines)
     canvas.draw(line, samples);
-  return samples == 1 ? canvas.image() : reduced(canvas.image(), samples);
+  return {samples == 1 ? canvas.image() : reduced(canvas.image(), samples), std::move(depths)};
+}
+
+/// The picture alone.
+inline raster_image render(const raster_scene& scene, const raster_view& view, int width, int height,
+                           int samples = 3) {
+  return render_with_depths(scene, view, width, height, samples).image;
 }
 
 } // namespace dovetail::app

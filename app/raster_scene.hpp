@@ -26,15 +26,17 @@ struct raster_line {
 };
 
 struct raster_scene {
+  std::vector<raster_triangle> backdrop; ///< pale, and seen only where nothing else is
   std::vector<raster_triangle> triangles;
   std::vector<raster_line> lines;
   rgb background = white;
 
   box3 bounds() const {
     box3 box;
-    for (const auto& triangle : triangles)
-      for (const vec3 p : triangle.corners)
-        box.include(p);
+    for (const auto* some : {&backdrop, &triangles})
+      for (const auto& triangle : *some)
+        for (const vec3 p : triangle.corners)
+          box.include(p);
     for (const auto& line : lines)
       for (const vec3 p : line.ends)
         box.include(p);
@@ -83,8 +85,9 @@ inline raster_view fitted(raster_view view, const raster_scene& scene, int width
   const auto include = [&](vec3 p) {
     seen.include({dot(p, view.right), dot(p, view.up), dot(p, view.towards)});
   };
-  for (const auto& triangle : scene.triangles)
-    std::for_each(triangle.corners.begin(), triangle.corners.end(), include);
+  for (const auto* some : {&scene.backdrop, &scene.triangles})
+    for (const auto& triangle : *some)
+      std::for_each(triangle.corners.begin(), triangle.corners.end(), include);
   for (const auto& line : scene.lines)
     std::for_each(line.ends.begin(), line.ends.end(), include);
   if (seen.empty())

@@ -4,6 +4,7 @@
 #include "dovetail/core/input_file.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/core/xml_tree.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/files/vtk_arrays.hpp"
 #include "dovetail/files/vtu_reader.hpp"
 #include "dovetail/files/zlib.hpp"
@@ -77,7 +78,8 @@ surface_groups surface_groups::beside(const std::filesystem::path& mesh) {
 }
 
 surface_groups surface_groups::read(const std::filesystem::path& file) {
-  const io::loaded_mesh surface = io::vtu_reader{io::zlib_expand}(file);
+  const io::loaded_mesh surface =
+      io::corners_of(io::vtu_reader{.expand = io::zlib_expand, .elements = io::element_order::any}(file));
   if (surface.node_ids.size() != surface.mesh.points.size())
     throw input_error("its points have no numbers");
   const std::string content = read_file(file);

@@ -27,10 +27,13 @@ constexpr named_colour colours[] = {{"forced", "red", {220, 40, 40}},
                                     {"refused", "orange", {245, 150, 20}},
                                     {"remeshing", "blue", {30, 100, 225}},
                                     {"thinnest wall", "violet", {150, 50, 200}},
-                                    {"left out", "green", {20, 150, 70}}};
+                                    {"detail left out", "green", {20, 150, 70}}};
 constexpr named_colour other_colour{"", "grey", {120, 120, 120}};
 constexpr const char* remedy = "; give the JSON file that 'dovetail mesh --report' has written";
-constexpr std::string_view of_coarse = ", coarse"; ///< ends the labels of what is no interface of the mesh
+// Begin the labels of angles, before their cause; those of the coarse skeleton are of no interface of the
+// mesh.
+constexpr std::string_view of_angle = "interface angle, ";
+constexpr std::string_view of_coarse = "coarse interface angle, ";
 
 const named_colour& colour_of(std::string_view what) {
   const auto* found = std::find_if(std::begin(colours), std::end(colours),
@@ -60,7 +63,9 @@ public:
         add_angles(*coarse, "interfaces/coarse", true);
     }
     add_suppressed(document);
-    return {file_, std::move(marks_)};
+    const auto elements = document.find("elements");
+    return {file_, std::move(marks_),
+            elements != document.end() && elements->is_number_unsigned() ? elements->get<std::size_t>() : 0};
   }
 
   [[noreturn]] void fail(const std::string& what) const { throw input_error(file_ + ": " + what + remedy); }
@@ -110,7 +115,7 @@ private:
       return;
     if (!listed->is_array())
       fail("suppressed is no list");
-    const auto& [label, name, colour] = colour_of("left out");
+    const auto& [label, name, colour] = colour_of("detail left out");
     for (std::size_t k = 0; k < listed->size(); ++k) {
       const json& each = (*listed)[k];
       const std::string path = "suppressed/" + std::to_string(k);
@@ -138,16 +143,16 @@ private:
       fail(path + " is no object");
     const std::string& cause = text(member(angle, path, "cause"), path + "/cause");
     const double degrees = number(member(angle, path, "angle_deg"), path + "/angle_deg");
-    std::string said = number_text(degrees, 4) + "° of a " + text(member(angle, path, "of"), path + "/of") +
-                       ", " + cause + (coarse ? std::string(of_coarse) : "");
+    const std::string label = std::string(coarse ? of_coarse : of_angle) + cause;
+    std::string said =
+        label + ": " + number_text(degrees, 4) + "° of a " + text(member(angle, path, "of"), path + "/of");
     const json& cad = member(angle, path, "cad");
     if (!cad.is_array())
       fail(path + "/cad is no list");
     for (std::size_t k = 0; k < cad.size(); ++k)
       said += (k == 0 ? "; CAD: " : ", ") + text(cad[k], path + "/cad/" + std::to_string(k));
     const rgb colour = colour_of(cause).colour;
-    marks_.push_back({place(angle, path), cause + (coarse ? std::string(of_coarse) : ""),
-                      coarse ? paler(colour) : colour, std::move(said)});
+    marks_.push_back({place(angle, path), label, coarse ? paler(colour) : colour, std::move(said)});
   }
 
   std::string file_;
@@ -156,9 +161,9 @@ private:
 
 /// Of a label, as a word.
 std::string name_of_colour(const std::string& label) {
-  if (!label.ends_with(of_coarse))
-    return std::string(colour_of(label).name);
-  return "pale " + std::string(colour_of(label.substr(0, label.size() - of_coarse.size())).name);
+  if (label.starts_with(of_coarse))
+    return "pale " + std::string(colour_of(label.substr(of_coarse.size())).name);
+  return std::string(colour_of(label.starts_with(of_angle) ? label.substr(of_angle.size()) : label).name);
 }
 
 } // namespace
@@ -199,7 +204,7 @@ std::string text_of(const view_marks& marks) {
   std::string text = std::to_string(marks.all.size()) + (marks.all.size() == 1 ? " mark" : " marks");
   const char* before = ": ";
   for (const auto& [name, colour, count] : labels_of(marks)) {
-    text += before + std::to_string(count) + " " + name + " (" + name_of_colour(name) + ")";
+    text += before + std::to_string(count) + " x " + name + " (" + name_of_colour(name) + ")";
     before = "; ";
   }
   return text;

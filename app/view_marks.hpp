@@ -25,6 +25,7 @@ struct view_mark {
 struct view_marks {
   std::string report;         ///< the file; empty: none
   std::vector<view_mark> all; ///< what matters most first
+  std::size_t elements = 0;   ///< of the run's mesh; 0: not known
 };
 
 /// The thinnest wall, then angles of the fine interfaces, then those of the coarse ones, then details left

@@ -23,10 +23,13 @@ const colours = {group: data.groups.map(({colour}) => rgb(colour)), piece: data.
   material: data.materials.map(({colour}) => rgb(colour)), angle: data.angleColours.map(rgb)};
 const inside = [214, 208, 196];
 const colourOfAngle = angle => colours.angle[Math.min(70, Math.floor(angle / 100))];
+// Groups do not tell elements under an angle apart.
+const colourKind = () => state.colours === "group" && state.under !== null ? "angle" : state.colours;
 function colourOf(items, k) {
-  if (state.colours === "piece") return colours.piece[items.pieces[k]];
-  if (state.colours === "material") return colours.material[items.materials[k]];
-  if (state.colours === "angle" || state.under !== null) return colourOfAngle(items.angles[k]);
+  const kind = colourKind();
+  if (kind === "piece") return colours.piece[items.pieces[k]];
+  if (kind === "material") return colours.material[items.materials[k]];
+  if (kind === "angle") return colourOfAngle(items.angles[k]);
   return items.groups ? colours.group[items.groups[k]] : inside;
 }
 const isUnder = (items, k) => state.under === null || items.angles[k] < 100 * state.under;
@@ -136,7 +139,7 @@ function outlinePlaces() {
   return all;
 }
 
-// Marks are not hidden by the mesh, since they are inside of it, but are cut with it. They are of no piece, and would be elsewhere
+// Marks are cut with the mesh, and seen through it, since most are inside of it. They are of no piece, and would be elsewhere
 // than what they mark once pieces are apart.
 function shownMarks() {
   if (!state.marks || state.apart > 0) return [];
@@ -152,8 +155,10 @@ function gaps() {
   return [
     outer < data.outer && `The surface has gaps, as this page has ${some(outer, data.outer)} triangles.`,
     inner < data.inner && `There are gaps between pieces, as this page has ${some(inner, data.inner)} triangles there.`,
-    here < all && isSection && `The section has gaps, as this page has ${some(here, all)} elements; dovetail view --png --cut draws all.`,
-    here < all && state.under !== null && state.under > data.complete &&
+    here === 0 && all > 0 && (isSection || state.under !== null) &&
+      `This page has none of the ${text(all)} elements inside; dovetail view --png draws them.`,
+    here > 0 && here < all && isSection && `The section has gaps, as this page has ${some(here, all)} elements; dovetail view --png --cut draws all.`,
+    here > 0 && here < all && state.under !== null && state.under > data.complete &&
       `Elements under ${data.complete.toFixed(1)}° are all here, and some of the others.`
   ].filter(Boolean).join(" ");
 }

@@ -178,6 +178,7 @@ std::string page_of_view(const view_scene& scene, const view_part& part, const s
     centres.push_back(json_of(centre - scene.box.center()));
   const json data{{"name", name},
                   {"dimension", scene.dimension},
+                  {"secondOrder", scene.second_order},
                   {"count", scene.count},
                   {"outer", scene.outer},
                   {"inner", scene.triangles.size() - scene.outer},

@@ -23,6 +23,11 @@ constexpr double hidden_edges = 2;   ///< in pixels: elements of this size have 
 constexpr double full_edges = 10;    ///< and from this size on the darkest ones
 constexpr double mark_radius = 5;    ///< in pixels, with the rim
 constexpr double mark_rim = 1.5;
+constexpr double hidden_rim = 0.7;        ///< of a mark with a hole, whose ring shows its colour
+constexpr double mark_hole = 2.3;         ///< in pixels: the radius of this hole
+constexpr double mark_depth_pixels = 4;   ///< so far behind the surface, in pixels or over the height of
+constexpr double mark_depth_part = 0.002; ///< the picture, a mark is still on it
+constexpr rgb body_colour{130, 140, 160}; ///< of the surface around elements under an angle
 
 using polygon = std::vector<vec3>;
 
@@ -98,6 +103,11 @@ public:
       for_each_of_surface(f);
     if (wishes_.cut)
       for_each_of_section(f);
+  }
+  /// The outer surface, where only elements in it are shown.
+  void add_body(std::vector<raster_triangle>& triangles) const {
+    for (std::size_t t = 0; wishes_.under && t < scene_.outer; ++t)
+      triangles.push_back({placed(scene_.triangles[t], scene_.piece_of_triangle(t)), body_colour});
   }
   void add_outline(std::vector<raster_line>& lines) const {
     for (const auto& [ends, piece] : scene_.outline) {
@@ -219,9 +229,9 @@ void add_edges(std::vector<raster_line>& lines, const polygon& p, rgb colour, do
     lines.push_back({{p[k], p[(k + 1) % p.size()]}, dark, 0.8, 0.9 * darkness});
 }
 
-/// A disc with a dark rim, smooth at its edge; x and y in pixels.
-void draw_mark(raster_image& image, double x, double y, rgb colour) {
-  const double reach = mark_radius + 1;
+/// A disc with a dark rim, smooth at its edge; what is hidden has a hole. x and y in pixels.
+void draw_mark(raster_image& image, double x, double y, rgb colour, bool is_hidden) {
+  const double reach = mark_radius + 1, rim = is_hidden ? hidden_rim : mark_rim;
   if (!(x > -reach && x < image.width() + reach && y > -reach && y < image.height() + reach))
     return; // also where a far place is no number of pixels
   const auto range = [&](double middle, int size) {
@@ -234,20 +244,42 @@ void draw_mark(raster_image& image, double x, double y, rgb colour) {
     for (int column = left; column <= right; ++column) {
       const double away = std::hypot(column + 0.5 - x, row + 0.5 - y);
       rgb& pixel = image.at(column, row);
+      const rgb before = pixel;
       pixel = mixed(pixel, outline_colour, std::clamp(mark_radius + 0.5 - away, 0.0, 1.0));
-      pixel = mixed(pixel, colour, std::clamp(mark_radius - mark_rim + 0.5 - away, 0.0, 1.0));
+      pixel = mixed(pixel, colour, std::clamp(mark_radius - rim + 0.5 - away, 0.0, 1.0));
+      if (is_hidden)
+        pixel = mixed(pixel, before, std::clamp(mark_hole + 0.5 - away, 0.0, 1.0));
     }
 }
 
+/// Whether what is at a pixel and at those around it is before a place. On a steep surface one of them is
+/// not.
+bool is_hidden(const raster_picture& picture, double x, double y, double depth) {
+  const auto column = static_cast<int>(std::clamp(x, -2.0, picture.image.width() + 2.0));
+  const auto row = static_cast<int>(std::clamp(y, -2.0, picture.image.height() + 2.0));
+  bool found = false;
+  for (int v = std::max(0, row - 1); v <= std::min(picture.image.height() - 1, row + 1); ++v)
+    for (int u = std::max(0, column - 1); u <= std::min(picture.image.width() - 1, column + 1); ++u) {
+      found = true;
+      if (picture.depths[static_cast<std::size_t>(v) * static_cast<std::size_t>(picture.image.width()) +
+                         static_cast<std::size_t>(u)] <= depth)
+        return false;
+    }
+  return found;
+}
+
 /// The first ones last, since they matter most.
-void draw_marks(raster_image& image, const view_wishes& wishes, const raster_view& view) {
+void draw_marks(raster_picture& picture, const view_wishes& wishes, const raster_view& view) {
+  raster_image& image = picture.image;
   const double scale = image.height() / view.height;
+  const double tolerance = std::max(mark_depth_pixels / scale, mark_depth_part * view.height);
   for (auto mark = wishes.marks.all.rbegin(); mark != wishes.marks.all.rend(); ++mark) {
     if (wishes.cut && dot(wishes.cut->normal, mark->place) > wishes.cut->place)
       continue;
     const vec3 d = mark->place - view.center;
-    draw_mark(image, 0.5 * image.width() + scale * dot(d, view.right),
-              0.5 * image.height() - scale * dot(d, view.up), mark->colour);
+    const double x = 0.5 * image.width() + scale * dot(d, view.right);
+    const double y = 0.5 * image.height() - scale * dot(d, view.up);
+    draw_mark(image, x, y, mark->colour, is_hidden(picture, x, y, dot(d, view.towards) + tolerance));
   }
 }
 
@@ -258,16 +290,17 @@ raster_image picture_of_view(const view_scene& scene, const view_wishes& wishes)
   raster_scene filled;
   parts.for_each_polygon(
       [&](const polygon& p, rgb colour, double) { add_triangles(filled.triangles, p, colour); });
+  parts.add_body(filled.backdrop);
   parts.add_outline(filled.lines);
   const raster_view view = fitted(view_from(wishes.towards), filled, wishes.width, wishes.height);
   if (wishes.edges)
     parts.for_each_polygon([&](const polygon& p, rgb colour, double size) {
       add_edges(filled.lines, p, colour, size * wishes.height / view.height, view);
     });
-  raster_image image = render(filled, view, wishes.width, wishes.height, 3);
+  raster_picture picture = render_with_depths(filled, view, wishes.width, wishes.height, 3);
   if (wishes.explode == 0)
-    draw_marks(image, wishes, view);
-  return image;
+    draw_marks(picture, wishes, view);
+  return std::move(picture.image);
 }
 
 bool is_drawn(const view_wishes& wishes, float angle, const std::array<vec3, 4>& corners) {

@@ -30,8 +30,13 @@ struct view_wishes {
   std::optional<double> under = {};   ///< degrees: only elements with smaller angles, in the outline
   double explode = 0;                 ///< how far pieces are moved, over their distance from the middle
   bool edges = true;                  ///< of elements; those of the outline are always drawn
-  view_marks marks = {};              ///< drawn over all else; none where pieces are moved away from them
+  view_marks marks = {};              ///< hollow where hidden; none where pieces are moved away from them
 };
+
+/// Whether colours are of angles: where elements are asked for by their angle, groups do not tell them apart.
+inline bool shows_angles(const view_wishes& wishes) {
+  return wishes.colours == view_colours::angle || (wishes.under && wishes.colours == view_colours::group);
+}
 
 /// Elements seen in part where a section cuts them. The edges of small elements fade, all of an element
 /// alike, since they would hide the colours: from ten pixels on, to nothing at two.

@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/files/streamed_validity.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 
 #include <algorithm>
@@ -115,30 +116,15 @@ public:
   piece_collector(std::size_t elements, surface_groups surface)
       : elements_(elements), surface_(std::move(surface)) {}
 
+  /// \param piece whose elements may be of second order
   void add(const io::loaded_mesh& piece) {
-    const std::size_t count = piece.mesh.elements.size();
-    const bool has_subdomains = piece.subdomains.size() == count;
-    agree_ = agree_ && (elements_.seen() == 0 || has_subdomains == has_subdomains_);
-    has_subdomains_ = has_subdomains;
     numbers_.add(piece);
-    add_tags(piece);
-    const auto if_complete = [&](const std::vector<local_id>& tags) {
-      return tags.size() == count ? span_of(tags) : std::span<const local_id>();
-    };
-    const seen_sides sides =
-        find_seen_sides(piece, if_complete(piece.subdomains), if_complete(piece.mesh.tags));
-    const std::vector<float> angles = add_elements(piece);
-    std::vector<place> places(piece.mesh.points.size(), place::unused);
-    for (const simplex<3>& element : piece.mesh.elements)
-      for (const local_id v : element)
-        places[v] = place::within;
-    for (const auto* some : {&sides.inner, &sides.outer})
-      for (const seen_side& side : *some) {
-        add_side(piece, side, angles[side.element], some == &sides.outer);
-        for (const local_id v : side.vertices)
-          places[v] = some == &sides.outer ? place::on_boundary : place::at_side;
-      }
-    add_points(piece, places);
+    if (io::detail::has_middles(piece)) {
+      second_order_ = true;
+      for (const global_id id : piece.node_ids)
+        nodes_.add(id);
+    }
+    with_corners(piece, [&](const io::loaded_mesh& corners) { add_corners(corners); });
   }
 
   /// Whether in all files the same tells pieces.
@@ -158,6 +144,7 @@ public:
     scene.pieces.names = pieces.names();
     scene.materials.names = materials.names();
     scene.count = elements_.seen();
+    scene.second_order = second_order_;
     scene.least_angle = least_angle_;
     scene.box = box_;
     sort_unique(boundary_);
@@ -192,11 +179,38 @@ public:
     return kept;
   }
 
-  std::string elsewhere(std::size_t points) const { return numbers_.elsewhere(points); }
+  std::string elsewhere(std::size_t corners) {
+    return numbers_.elsewhere(second_order_ ? nodes_.count() : corners);
+  }
 
 private:
   /// Of a point in its piece: the last that holds.
   enum class place : std::uint8_t { unused, within, at_side, on_boundary };
+
+  void add_corners(const io::loaded_mesh& piece) {
+    const std::size_t count = piece.mesh.elements.size();
+    const bool has_subdomains = piece.subdomains.size() == count;
+    agree_ = agree_ && (elements_.seen() == 0 || has_subdomains == has_subdomains_);
+    has_subdomains_ = has_subdomains;
+    add_tags(piece);
+    const auto if_complete = [&](const std::vector<local_id>& tags) {
+      return tags.size() == count ? span_of(tags) : std::span<const local_id>();
+    };
+    const seen_sides sides =
+        find_seen_sides(piece, if_complete(piece.subdomains), if_complete(piece.mesh.tags));
+    const std::vector<float> angles = add_elements(piece);
+    std::vector<place> places(piece.mesh.points.size(), place::unused);
+    for (const simplex<3>& element : piece.mesh.elements)
+      for (const local_id v : element)
+        places[v] = place::within;
+    for (const auto* some : {&sides.inner, &sides.outer})
+      for (const seen_side& side : *some) {
+        add_side(piece, side, angles[side.element], some == &sides.outer);
+        for (const local_id v : side.vertices)
+          places[v] = some == &sides.outer ? place::on_boundary : place::at_side;
+      }
+    add_points(piece, places);
+  }
 
   void add_tags(const io::loaded_mesh& piece) {
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
@@ -305,10 +319,12 @@ private:
   box3 box_;
   float least_angle_ = 180;
   numbers_of_pieces numbers_;
+  io::number_ranges nodes_; ///< of points of second order, those in the middle of edges too
   tag_labels subdomains_, materials_, groups_;
   tag_names material_names_, triangle_names_;
   bool has_triangles_ = false;
   bool has_subdomains_ = false;
+  bool second_order_ = false;
   bool agree_ = true;
 };
 
@@ -336,7 +352,7 @@ std::optional<view_pieces> view_pieces::read(const std::filesystem::path& mesh, 
       throw input_error(file.string() + ": " + problem.what());
     }
   };
-  if (!for_each_piece_of_any(mesh, add) || !collector.agree())
+  if (!for_each_piece_of_any(mesh, add, io::element_order::any) || !collector.agree())
     return std::nullopt;
   view_pieces read;
   read.mesh_ = mesh;
@@ -369,7 +385,7 @@ std::size_t view_pieces::take_elements(double apart, std::size_t most,
     std::sort(elements.begin(), elements.end(), // as they were read
               [](const lone_element& a, const lone_element& b) { return a.number < b.number; });
   };
-  const auto add = [&](const io::loaded_mesh& piece, const std::filesystem::path&) {
+  const auto add = [&](const io::loaded_mesh& piece) {
     for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e) {
       const auto at = corners(span_of(piece.mesh.points), piece.mesh.elements[e]);
       const float angle = least_angle_of(at);
@@ -387,7 +403,10 @@ std::size_t view_pieces::take_elements(double apart, std::size_t most,
         leave_worst();
     }
   };
-  if (!for_each_piece_of_any(mesh_, add))
+  const auto add_corners = [&](const io::loaded_mesh& piece, const std::filesystem::path&) {
+    with_corners(piece, add);
+  };
+  if (!for_each_piece_of_any(mesh_, add_corners, io::element_order::any))
     throw input_error(mesh_.string() + ": the file has changed while it was read");
   leave_worst();
   // They have points of their own: what is drawn does not ask which are the same.

@@ -5,6 +5,7 @@
 #include "view_sides.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/files/second_order_nodes.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 
@@ -149,8 +150,12 @@ std::vector<local_id> elements_that_fit(const view_scene& scene, std::size_t roo
 } // namespace
 
 view_scene scene_of(io::loaded_mesh loaded) {
+  const bool second_order = io::detail::has_middles(loaded);
+  if (second_order)
+    loaded = io::corners_of(loaded);
   view_scene scene = is_of_triangles(loaded) ? scene_of_triangles(std::move(loaded))
                                              : scene_of_tetrahedra(std::move(loaded));
+  scene.second_order = second_order;
   finish_scene(scene);
   return scene;
 }
@@ -186,12 +191,14 @@ std::string text_of_left_out(const view_scene& scene, const view_part& part) {
   std::string text;
   const auto add = [&](std::size_t here, std::size_t all, const std::string& what) {
     if (here < all)
-      text += (text.empty() ? "" : ", ") + std::to_string(here) + " of " + std::to_string(all) + what;
+      text += (text.empty() ? "" : ", ") + (here == 0 ? "none" : "only " + std::to_string(here)) + " of " +
+              std::to_string(all) + what;
   };
   add(part.triangles.size(), scene.triangles.size(), " triangles of the surface and between pieces");
   if (scene.dimension == 3)
-    add(part.elements.size(), scene.count, " elements inside, half of them the worst");
-  return text.empty() ? text : "only " + text;
+    add(part.elements.size(), scene.count,
+        part.elements.empty() ? " elements inside" : " elements inside, half of them the worst");
+  return text;
 }
 
 std::optional<float> complete_under(const view_scene& scene, const view_part& part) {

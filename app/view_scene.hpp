@@ -32,7 +32,8 @@ struct outline_edge {
 /// A mesh as pictures and pages show it. Pieces are the subdomains of the file, else its materials; of
 /// triangles the groups, since no file says which subdomain they are of.
 struct view_scene {
-  int dimension = 3; ///< of the elements
+  int dimension = 3;         ///< of the elements
+  bool second_order = false; ///< of the file's elements: only the corners are here
   std::vector<vec3> points;
   /// All of the mesh, or some: the first of the elements that what is said per element is of. The others are
   /// those behind the triangles. None of a mesh of triangles, which are all in `triangles`.
@@ -68,8 +69,8 @@ float least_angle_of(const std::array<vec3, N>& corners) {
   return angle > 0 ? angle : 0;
 }
 
-/// Takes the tetrahedra, or the triangles where there are none. O(n log n) in time. Throws `mesh_error` where
-/// an element names a point that there is not.
+/// Takes the corners of the tetrahedra, or of the triangles where there are none. O(n log n) in time. Throws
+/// `mesh_error` where an element names a point that there is not.
 view_scene scene_of(io::loaded_mesh loaded);
 
 /// Outline and centres of a scene that has all else.

@@ -11,7 +11,7 @@ expect_error "file/out" "${coarse[@]}" --out "$inputs/file/out"
 expect_error "--out" "${coarse[@]}" --out ""
 expect_error "/proc/out" "${coarse[@]}" --out /proc/out
 expect_error "/proc/report.json" "${coarse[@]}" --report /proc/report.json
-expect_error "no_such_folder/report.json" "${coarse[@]}" --report no_such_folder/report.json
+expect_error "no_such_folder" "${coarse[@]}" --report "$inputs/file/no_such_folder/report.json"
 expect_error "/: cannot write" "${coarse[@]}" --report /
 if ((EUID != 0)); then
   mkdir -m 555 "$inputs/read_only"

@@ -44,6 +44,23 @@ for how in "${other_files[@]}"; do
   expect_success view "$inputs/other" --png picture.png --size 320x200 --colour group
   cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups with $how"
 done
+# Of second order the corners are drawn, as of the mesh of first order, whether it is read whole or in pieces.
+expect_success mesh "$inputs/cube.off" -s 0.25 --subdomains 3 --format vtu,msh --order 2 --quiet
+mv "$sandbox/work/out" "$inputs/quadratic"
+for mesh in mesh.pvtu mesh.msh; do
+  expect_success view "$inputs/quadratic/$mesh" --png picture.png --size 320x200 --cut x --colour angle
+  grep -q "$mesh: elements of second order are drawn by their corners, with straight edges$" "$sandbox/stdout" || fault "the order is not said"
+  [[ -s $sandbox/stderr ]] && fault "it warns"
+  cmp "$sandbox/work/picture.png" "$inputs/first.png" || fault "another picture of second order"
+  expect_success view "$inputs/quadratic/$mesh" --png picture.png --size 320x200 --colour group
+  cmp "$sandbox/work/picture.png" "$inputs/groups.png" || fault "other groups of second order"
+done
+expect_success mesh "$inputs/cube.off" --dimension 2 -s 0.25 --subdomains 2 --order 2 --quiet
+mv "$sandbox/work/out" "$inputs/quadratic_shell"
+expect_success view "$inputs/quadratic_shell" --png picture.png --size 320x200
+cp "$sandbox/work/picture.png" "$inputs/shell.png"
+expect_success view "$inputs/shell" --png picture.png --size 320x200
+cmp "$sandbox/work/picture.png" "$inputs/shell.png" || fault "another picture of triangles of second order"
 cp -r "$inputs/solid" "$inputs/alone"
 rm "$inputs/alone/surface.vtp"
 expect_success view "$inputs/alone/mesh.pvtu" --png picture.png --size 320x200 --colour group
@@ -65,6 +82,22 @@ done
 expect_success view "$inputs/solid" --png picture.png --under 0.01
 grep -q "0 of $elements elements have an angle under 0.01 degrees" "$sandbox/stdout" || fault "the elements are not counted"
 grep -q "^warning: picture.png: no element" "$sandbox/stderr" || fault "it does not warn"
+# Colours of angles are told, others are not; and where a section meets nothing.
+scale="colours of least angles: 0° dark red, .*, 70° blue"
+for options in "--colour angle" "--under 40"; do
+  expect_success view "$inputs/solid" --png picture.png $options
+  grep -q "^$scale" "$sandbox/stdout" || fault "the colours of angles are not told"
+done
+for options in "--colour piece" "--under 40 --colour piece"; do
+  expect_success view "$inputs/solid" --png picture.png $options
+  grep -q "^$scale" "$sandbox/stdout" && fault "colours of angles are told"
+done
+for cut in y=1e9 y=-0.1 z=1.1; do
+  expect_success view "$inputs/solid" --png picture.png --size 32x20 --cut $cut
+  grep -q "^warning: picture.png: the section $cut is outside of the mesh (${cut%%=*} from 0 to 1)$" "$sandbox/stderr" || fault "it does not warn"
+done
+expect_success view "$inputs/solid" --png picture.png --size 32x20 --cut y=0.9 --view back
+[[ -s $sandbox/stderr ]] && fault "it warns"
 expect_success view "$inputs/solid" --png picture.png --no-edges --size 640x480
 cp "$sandbox/work/picture.png" "$inputs/plain.png"
 expect_success view "$inputs/solid" --png picture.png --size 640x480
@@ -79,7 +112,7 @@ cat >"$inputs/marks.json" <<'JSON'
  "interfaces": {"below_threshold": [{"angle_deg": 9.5, "of": "face", "cause": "forced", "at": [1, 0, 0.5], "cad": ["<face> 3"]}]}}
 JSON
 expect_success view "$inputs/solid" --png marked.png --size 640x480 --report "$inputs/marks.json"
-grep -q "marks.json: 2 marks: 1 thinnest wall (violet); 1 forced (red)$" "$sandbox/stdout" || fault "the marks are not counted"
+grep -q "marks.json: 2 marks: 1 x thinnest wall (violet); 1 x interface angle, forced (red); those behind the surface are hollow$" "$sandbox/stdout" || fault "the marks are not counted"
 [[ -s $sandbox/stderr ]] && fault "it warns"
 cp "$sandbox/work/marked.png" "$inputs/marked.png"
 expect_success view "$inputs/solid" --png picture.png --size 640x480
@@ -87,6 +120,11 @@ cmp -s "$sandbox/work/picture.png" "$inputs/marked.png" && fault "nothing is mar
 sed 's/0.5, 0.5, 0.5/0.5, 0.5, 50/' "$inputs/marks.json" >"$inputs/far.json"
 expect_success view "$inputs/solid" --png picture.png --report "$inputs/far.json"
 grep -q "^warning: .*far.json: 1 of 2 marks are outside of the mesh" "$sandbox/stderr" || fault "it does not warn"
+expect_success view "$inputs/solid" --png picture.png --explode 0.5 --report "$inputs/marks.json"
+grep -q "forced (red); none are in the picture, since its pieces are apart$" "$sandbox/stdout" || fault "it is not said that no mark is drawn"
+sed '1s/{/{"elements": 7, /' "$inputs/marks.json" >"$inputs/seven.json"
+expect_success view "$inputs/solid" --png picture.png --report "$inputs/seven.json"
+grep -q "^warning: .*seven.json: it is of a mesh of 7 elements, and this one has $elements; is this" "$sandbox/stderr" || fault "it does not warn"
 printf '{}\n' >"$inputs/other.json"
 expect_success view "$inputs/solid" --png picture.png --report "$inputs/other.json"
 grep -q "other.json: no marks" "$sandbox/stdout" || fault "it is not said that there are none"
@@ -109,7 +147,9 @@ mkdir "$inputs/empty"
 for mesh in text.vtu short.msh missing.vtu empty; do
   expect_error "${mesh//./\\.}" view "$inputs/$mesh" --png p.png
 done
-expect_error 'p\.png' view "$inputs/solid" --png nowhere/p.png
+expect_success view "$inputs/solid" --png new/folder/p.png
+[[ -s $sandbox/work/new/folder/p.png ]] || fault "there is no picture in a new folder"
+expect_error 'cannot create the folder' view "$inputs/solid" --png "$inputs/text.vtu/new/p.png"
 expect_usage_error 'give -o with an HTML file' view "$inputs/solid"
 expect_usage_error 'MESH' view --png p.png
 expect_usage_error '--view up: give front' view "$inputs/solid" --png p.png --view up
@@ -120,6 +160,12 @@ for name in p.jpg p png p.png.txt; do
   expect_usage_error "--png $name: pictures are written to files with the extension \.png" view "$inputs/solid" --png "$name"
 done
 expect_success view "$inputs/solid" --png P.PNG --size 32x20
+cp "$inputs/solid/mesh.msh" "$inputs/solid/other.msh"
+for name in "$inputs/solid/other.msh" p.vtu p html p.html.gz; do
+  expect_usage_error "--out .*: pages are written to files with the extension \.html or \.htm" view "$inputs/solid/mesh.pvtu" -o "$name"
+done
+cmp "$inputs/solid/mesh.msh" "$inputs/solid/other.msh" || fault "another mesh is overwritten"
+rm "$inputs/solid/other.msh"
 expect_usage_error '--cut w: give' view "$inputs/solid" --png p.png --cut w
 expect_usage_error '--cut x=: give' view "$inputs/solid" --png p.png --cut x=
 expect_usage_error '--under' view "$inputs/solid" --png p.png --under 200
@@ -135,6 +181,7 @@ if grep -q "install libjs-three" "$sandbox/stderr"; then
   expect_error 'install libjs-three' view "$inputs/solid" -o page.html --png p.png
   finish
 fi
+expect_success view "$inputs/solid" -o PAGE.HTM
 for mesh in solid solid/mesh.msh shell; do
   expect_success view "$inputs/$mesh" -o page.html --png picture.png
   page=$sandbox/work/page.html
@@ -153,10 +200,16 @@ grep -qE "only .*of $elements elements inside, half of them the worst; see --mos
   fault "it is not said what is left out"
 grep -q "of $elements elements inside" "$sandbox/work/page.html" || fault "the page does not say what is left out"
 largest "$inputs/all.html" "$sandbox/work/page.html"
+grep -q '"secondOrder":false' "$sandbox/work/page.html" || fault "the page is said to be of second order"
+expect_success view "$inputs/quadratic" -o page.html
+grep -q '"secondOrder":true' "$sandbox/work/page.html" || fault "the page does not know its order"
 expect_success view "$inputs/solid" -o page.html --report "$inputs/marks.json"
-grep -qF '"text":"9.5\u00b0 of a face, forced; CAD: \u003cface> 3"' "$sandbox/work/page.html" || fault "the page has no marks"
+grep -qF '"text":"interface angle, forced: 9.5\u00b0 of a face; CAD: \u003cface> 3"' "$sandbox/work/page.html" || fault "the page has no marks"
 expect_usage_error '--report' view "$inputs/solid" -o "$inputs/marks.json" --report "$inputs/marks.json"
 expect_error 'text\.vtu' view "$inputs/text.vtu" -o p.html
-expect_error 'nowhere' view "$inputs/solid" -o nowhere/p.html
+expect_success view "$inputs/solid" -o new/folder/p.html
+[[ -s $sandbox/work/new/folder/p.html ]] || fault "there is no page in a new folder"
+expect_error 'text\.vtu' view "$inputs/text.vtu" -o new/folder/p.html
+[[ ! -e $sandbox/work/new ]] || fault "an empty folder is left"
 expect_usage_error 'MESH' view "$inputs/solid/mesh.msh" -o "$inputs/solid/mesh.msh"
 finish

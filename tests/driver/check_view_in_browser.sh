@@ -47,10 +47,14 @@ cat >"$inputs/run.json" <<'JSON'
 JSON
 expect_success view "$inputs/cube" -o page.html --report "$inputs/run.json"
 cp "$sandbox/work/page.html" "$inputs/marked.html"
+# On the front, where the middle is seen through it.
+sed -i 's/0.5, 0.5, 0.5/0.9, 0, 0.8248/' "$inputs/run.json"
+expect_success view "$inputs/cube" -o page.html --report "$inputs/run.json"
+cp "$sandbox/work/page.html" "$inputs/on_front.html"
 
 what="the pages in $browser"
 plain="edges=0&outline=0"
-node "$(dirname "$0")/browser_shots.js" "$browser" "$sandbox" $middle 500,350 650,350 600,300 990,10 300,600 \
+node "$(dirname "$0")/browser_shots.js" "$browser" "$sandbox" $middle 500,350 638,350 650,350 600,300 990,10 300,600 \
   >"$sandbox/stdout" 2>"$sandbox/stderr" <<LIST
 red file://$inputs/red.html
 plain file://$inputs/mesh.html#$plain
@@ -62,6 +66,9 @@ glass file://$inputs/mesh.html#outline=0&under=0
 apart file://$inputs/mesh.html#$plain&apart=2
 above file://$inputs/mesh.html#$plain&azimuth=0&elevation=90
 marked file://$inputs/marked.html#$plain
+marked_cut file://$inputs/marked.html#$plain&cut=x
+on_front file://$inputs/on_front.html#$plain
+unknown file://$inputs/mesh.html#$plain&colours=foo&cut=q&place=bar&apart=&azimuth=west
 unmarked file://$inputs/marked.html#$plain&marks=0
 LIST
 (($? == 0)) || { fault "there are no pictures of all pages"; finish; }
@@ -83,8 +90,14 @@ expect_shade above $middle $top # along an axis one side alone is seen
 [[ $(pixel above $middle) == "$(pixel above 600,300)" ]] || fault "a plane side has two shades"
 # In a window that has changed since then the mesh is fitted again.
 cmp -s "$sandbox/resized.png" "$sandbox/plain.png" || fault "the page is another one where the window had another size"
-# A mark is over all that is before it.
-expect_pixel marked $middle "150 50 200"
+cmp -s "$sandbox/unknown.png" "$sandbox/plain.png" || fault "the page is another one where its address has unknown values"
+# A mark is a disc, and has a hole where it is hidden, in which the surface before it is seen.
+violet="150 50 200"
+expect_pixel on_front $middle "$violet"
+expect_pixel on_front 638,350 "$violet"
+expect_pixel marked_cut $middle "$violet"
+expect_pixel marked 638,350 "$violet"
+expect_shade marked $middle $front
 expect_shade marked 650,350 $front
 expect_shade unmarked $middle $front
 finish

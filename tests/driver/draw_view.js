@@ -13,6 +13,7 @@ class stand_in {
   }
   addEventListener(name, listener) { this.listeners[name] = listener; }
   append(...items) { this.children.push(...items); }
+  replaceChildren(...items) { this.children = items; }
   insertBefore(item) { this.children.unshift(item); }
   set(value) { Object.assign(this, value); this.listeners.input(); }
   get firstChild() { return this.children[0]; }
@@ -24,6 +25,7 @@ for (const [attributes, element] of tags) {
   const id = attributes.match(/ id="(\w+)"/);
   if (id) byId[id[1]] = element;
 }
+byId.colours.value = "group"; // as a browser chooses the first option
 const frames = [], rendered = [];
 const document = {body: new stand_in("body"), title: "", getElementById: id => byId[id], createElement: tag => new stand_in(tag),
   querySelectorAll: () => tags.filter(([attributes]) => attributes.includes("data-from")).map(([, element]) => element)};
@@ -38,7 +40,7 @@ THREE.WebGLRenderer = class {
 const ofWindow = {};
 Object.assign(globalThis, {innerWidth: 800, innerHeight: 600, devicePixelRatio: 1});
 const run = new Function("document", "location", "addEventListener", "requestAnimationFrame",
-  script("model") + script("show") + "return {layers, lines, discs, state, eye, uniforms, onScreen, half, panelWidth};");
+  script("model") + script("show") + "return {layers, lines, discs, hiddenDiscs, state, eye, uniforms, onScreen, half, panelWidth};");
 const shown = run(document, {hash: "#edges=0"}, (name, listener) => { ofWindow[name] = listener; }, frame => frames.push(frame));
 
 const areaOf = ({geometry}) => {
@@ -81,6 +83,13 @@ byId.under.set({value: 44});
 report("under44");
 byId.under.set({value: 46});
 report("under46");
+function legend(name) {
+  const [first, degrees] = byId.legend.children;
+  const rows = first && first.className === "scale" ? degrees.children.map(({textContent}) => textContent)
+    : byId.legend.children.map(({children: [patch, text]}) => `${patch.style.background} ${text}`);
+  print(`legend.${name}`, `${rows.join(" ") || "none"}; groups have ${byId.groups.className ? "none" : "colours"}`);
+}
+legend("under");
 byId.under.set({value: 71});
 byId.none.listeners.click();
 report("none");
@@ -92,6 +101,7 @@ report("without");
 for (const colours of ["piece", "material", "angle", "group"]) {
   byId.colours.set({value: colours});
   settle();
+  legend(colours);
   print(`colour.${colours}`, Array.from((shown.layers.surface.geometry.attributes.colour || {array: []}).array.slice(0, 3)).join(","));
 }
 const canvas = document.body.children[0];
@@ -102,6 +112,9 @@ const told = ([x, y]) => {
   return byId.mark.hidden ? "nothing" : byId.mark.textContent;
 };
 countMarks("all");
+print("marks.hidden", shown.hiddenDiscs.geometry.attributes.position.count);
+print("marks.note", byId.marksNote.textContent);
+print("marks.disabled", byId.marks.disabled);
 print("marks.labels", byId.markLabels.children.map(({children}) => `${children[1]} ${children[0].style.background}`).join("; ") || "none");
 print("marks.control", byId.marked.hidden ? "hidden" : "shown");
 const [first] = JSON.parse(script("data")).marks.all;
@@ -120,6 +133,8 @@ countMarks("cut");
 byId.cut.set({value: ""});
 byId.apart.set({value: 1});
 countMarks("apart");
+print("marks.noteApart", byId.marksNote.textContent);
+print("marks.disabledApart", byId.marks.disabled);
 byId.apart.set({value: 0});
 byId.marks.set({checked: false});
 countMarks("none");

@@ -55,13 +55,13 @@ TEST_CASE("all places of a report become marks, the thinnest wall first") {
   CHECK(marks.all[0].label == "thinnest wall");
   CHECK(marks.all[0].text == "thinnest wall, thickness 0.0125");
   CHECK(marks.all[0].place == vec3{7, 8, 9});
-  CHECK(marks.all[1].label == "forced");
-  CHECK(marks.all[1].text == "7.25° of a dihedral, forced; CAD: face 1, edge 4");
+  CHECK(marks.all[1].label == "interface angle, forced");
+  CHECK(marks.all[1].text == "interface angle, forced: 7.25° of a dihedral; CAD: face 1, edge 4");
   CHECK(marks.all[1].place == vec3{1, 2.5, -0.3});
-  CHECK(marks.all[2].text == "12° of a face, remeshing");
-  CHECK(marks.all[4].label == "refused, coarse");
-  CHECK(marks.all[4].text == "9° of a face, refused, coarse; CAD: face 2");
-  CHECK(marks.all[6].label == "left out");
+  CHECK(marks.all[2].text == "interface angle, remeshing: 12° of a face");
+  CHECK(marks.all[4].label == "coarse interface angle, refused");
+  CHECK(marks.all[4].text == "coarse interface angle, refused: 9° of a face; CAD: face 2");
+  CHECK(marks.all[6].label == "detail left out");
   CHECK(marks.all[6].text == "narrow face 31, left out; 0.25");
   CHECK(marks.all[6].place == vec3{1, 1, 2});
 }
@@ -75,8 +75,15 @@ TEST_CASE("marks of one label have one colour, and other labels another one") {
     for (std::size_t b = 0; b < a; ++b)
       CHECK(labels[a].colour != labels[b].colour);
   CHECK(text_of(marks) ==
-        "7 marks: 1 thinnest wall (violet); 2 forced (red); 1 remeshing (blue); "
-        "1 refused, coarse (pale orange); 1 unheard of, coarse (pale grey); 1 left out (green)");
+        "7 marks: 1 x thinnest wall (violet); 2 x interface angle, forced (red); "
+        "1 x interface angle, remeshing (blue); 1 x coarse interface angle, refused (pale orange); "
+        "1 x coarse interface angle, unheard of (pale grey); 1 x detail left out (green)");
+}
+
+TEST_CASE("the number of elements is read where there is one") {
+  CHECK(read(whole).elements == 0);
+  CHECK(read(R"({"elements": 12})").elements == 12);
+  CHECK(read(R"({"elements": "many"})").elements == 0);
 }
 
 TEST_CASE("a report that lists no places has no marks") {

@@ -125,6 +125,11 @@ TEST_CASE("marks are discs where the report has them, and say what they are") {
   CHECK(values["marks.cut"] == "1"); // what is nearer to the viewer, where x is larger, is taken away
   CHECK(values["marks.apart"] == "0");
   CHECK(values["marks.none"] == "0");
+  CHECK(values["marks.hidden"] == "3"); // the same, with holes, where they are hidden
+  CHECK(values["marks.note"] == "hollow: behind the surface");
+  CHECK(values["marks.noteApart"] == "none while pieces are apart");
+  CHECK(values["marks.disabledApart"] == "true");
+  CHECK(values["marks.disabled"] == "false");
 }
 
 TEST_CASE("the mesh is fitted again to another window or without the panel, until the view is moved") {
@@ -147,6 +152,30 @@ TEST_CASE("without marks there is no control for them; of a report without any t
   CHECK(without["marks.control"] == "hidden");
   CHECK(without["figures"].ends_with("2 pieces"));
   CHECK(empty["figures"].ends_with("2 pieces · no marks in run.json"));
+}
+
+TEST_CASE("the legend follows the choice of colours") {
+  auto values = drawn(page_of(testing::cubes_in_pieces(2)));
+  if (values.empty())
+    return;
+  const std::string angles = "0° 10° 20° 30° 40° 50° 60° ≥70°";
+  CHECK(values["legend.group"] == "none; groups have colours");
+  CHECK(values["legend.piece"].starts_with("#"));
+  CHECK(values["legend.piece"].ends_with("piece 1; groups have none"));
+  CHECK(values["legend.material"].ends_with("material 0; groups have none"));
+  CHECK(values["legend.angle"] == angles + "; groups have none");
+  CHECK(values["legend.under"] == angles + "; groups have none"); // of elements groups are not seen
+}
+
+TEST_CASE("of elements that are not there at all no angle is told") {
+  auto values = drawn(page_of(testing::cubes_in_pieces(2), 24));
+  if (values.empty())
+    return;
+  CHECK(values["figures"].ends_with("2 pieces · none of 12 elements inside"));
+  const std::string none = "This page has none of the 12 elements inside; dovetail view --png draws them.";
+  CHECK(values["whole.gaps"] == "none");
+  CHECK(values["cut.gaps"] == none);
+  CHECK(values["under46.gaps"] == none);
 }
 
 TEST_CASE("what was left out is said on the page") {

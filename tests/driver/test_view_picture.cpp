@@ -35,6 +35,10 @@ bool is_shade_of(rgb pixel, rgb colour) {
          agrees(pixel.blue, colour.blue);
 }
 
+int sum_of(rgb pixel) {
+  return pixel.red + pixel.green + pixel.blue;
+}
+
 int pixels_unlike_background(const raster_image& image) {
   return static_cast<int>(std::count_if(image.data(), image.data() + image.width() * image.height(),
                                         [](rgb pixel) { return pixel != white; }));
@@ -90,8 +94,35 @@ TEST_CASE("elements are drawn from an angle on; of none there is the outline") {
   wishes.under = 44;
   CHECK(elements_under(scene, 44) == 0);
   const raster_image none = picture_of_view(scene, wishes);
-  CHECK(none.at(40, 35) == white);
-  CHECK(pixels_unlike_background(none) > 50);
+  // The body is pale, and all of it there; elements are seen before it, wherever they are.
+  for (const int x : {8, 40, 80, 112}) {
+    CHECK(none.at(x, 35) != white);
+    CHECK(sum_of(none.at(x, 35)) > 3 * 190);
+  }
+  CHECK(none.at(1, 1) == white);
+  wishes.under = 46;
+  CHECK(is_shade_of(picture_of_view(scene, wishes).at(40, 35), colour_of_angle(45)));
+}
+
+TEST_CASE("a picture of elements alone is as large as the body around them, edges or not") {
+  view_scene scene = scene_of(testing::row_of_cubes(2));
+  scene.outline.clear(); // as of a ball
+  view_wishes wishes = from_front(view_colours::angle);
+  wishes.under = 44;
+  CHECK(pixels_unlike_background(picture_of_view(scene, wishes)) > 4000);
+}
+
+TEST_CASE("it is known where colours are of angles") {
+  view_wishes wishes;
+  CHECK_FALSE(shows_angles(wishes));
+  wishes.under = 20;
+  CHECK(shows_angles(wishes)); // and not of groups
+  wishes.colours = view_colours::piece;
+  CHECK_FALSE(shows_angles(wishes));
+  wishes = {.colours = view_colours::angle};
+  CHECK(shows_angles(wishes));
+  CHECK(text_of_angle_colours().starts_with("0° dark red, 10° red, "));
+  CHECK(text_of_angle_colours().ends_with("70° blue (and above)"));
 }
 
 TEST_CASE("pieces are pulled apart") {
@@ -104,10 +135,6 @@ TEST_CASE("pieces are pulled apart") {
   CHECK(apart.at(63, 30) == white);
   CHECK(is_shade_of(apart.at(25, 30), colour_of_number(0)));
   CHECK(is_shade_of(apart.at(95, 30), colour_of_number(1)));
-}
-
-int sum_of(rgb pixel) {
-  return pixel.red + pixel.green + pixel.blue;
 }
 
 /// n x n squares of two triangles each.
@@ -193,7 +220,7 @@ TEST_CASE("marks are discs with a dark rim, drawn over the mesh") {
   view_wishes wishes = from_front(view_colours::piece);
   const raster_image without = picture_of_view(scene, wishes);
   constexpr rgb red{220, 40, 40}, blue{30, 100, 225};
-  wishes.marks.all = {{{1, 0.75, 0.5}, "", red, ""}, {{1, 0.25, 0.5}, "", blue, ""}}; // one behind the other
+  wishes.marks.all = {{{1, 0, 0.5}, "", red, ""}, {{1, -0.25, 0.5}, "", blue, ""}}; // one behind the other
   const raster_image with = picture_of_view(scene, wishes);
   for (const int x : {59, 60})
     for (const int y : {29, 30})
@@ -216,14 +243,45 @@ TEST_CASE("marks are discs with a dark rim, drawn over the mesh") {
   CHECK(changed(picture_of_view(scene, wishes)) == 0);
 }
 
+TEST_CASE("marks behind the surface are hollow") {
+  const view_scene scene = scene_of(testing::row_of_cubes(2));
+  view_wishes wishes = from_front(view_colours::piece);
+  const raster_image without = picture_of_view(scene, wishes);
+  constexpr rgb red{220, 40, 40};
+  const auto with_mark = [&](vec3 at) {
+    wishes.marks.all = {{at, "", red, ""}};
+    return picture_of_view(scene, wishes);
+  };
+  const auto is_red = [](rgb pixel) { return pixel.red > 150 && pixel.green < 80 && pixel.blue < 80; };
+  for (const double depth : {0.1, 0.5, 1.0}) { // the last is on the back
+    const raster_image image = with_mark({1, depth, 0.5});
+    INFO(depth);
+    CHECK(image.at(60, 30) == without.at(60, 30));
+    CHECK(is_red(image.at(63, 30))); // the ring
+  }
+  CHECK(is_red(with_mark({1, 0, 0.5}).at(60, 30)));
+  CHECK(is_red(with_mark({1, 0.02, 0.5}).at(60, 30))); // as good as on it
+  CHECK(is_red(with_mark({1, 0, 1}).at(60, 2)));       // where the mesh ends
+
+  // A section shows what it cuts; elements under an angle hide nothing but what is behind them.
+  wishes.cut = view_plane{{0, -1, 0}, -0.5};
+  CHECK(is_red(with_mark({1, 0.5, 0.5}).at(60, 30)));
+  CHECK_FALSE(is_red(with_mark({1, 0.8, 0.5}).at(60, 30)));
+  wishes.cut.reset();
+  wishes.under = 44; // there are none
+  CHECK(is_red(with_mark({1, 0.5, 0.5}).at(60, 30)));
+}
+
 TEST_CASE("marks are cut with the mesh, and not drawn where its pieces are moved away from them") {
   const view_scene scene = scene_of(testing::cubes_in_pieces(2));
   view_wishes wishes = from_front(view_colours::piece);
   constexpr rgb red{220, 40, 40};
   const auto is_marked = [&] {
     const raster_image image = picture_of_view(scene, wishes);
-    return std::find(image.data(), image.data() + image.width() * image.height(), red) !=
-           image.data() + image.width() * image.height();
+    view_wishes plain = wishes;
+    plain.marks = {};
+    const raster_image without = picture_of_view(scene, plain);
+    return !std::equal(image.data(), image.data() + image.width() * image.height(), without.data());
   };
   wishes.marks.all = {{{1, 0.25, 0.5}, "", red, ""}};
   CHECK(is_marked());

@@ -141,8 +141,7 @@ TEST_CASE("no part has more than it may have; the outer surface goes first") {
     CHECK(outer == std::min<std::int64_t>(most, 20));
   }
   CHECK(text_of_left_out(scene, part_that_fits(scene, 5)) ==
-        "only 5 of 24 triangles of the surface and between pieces, 0 of 12 elements inside, half of them the "
-        "worst");
+        "only 5 of 24 triangles of the surface and between pieces, none of 12 elements inside");
 }
 
 TEST_CASE("elements have a quarter of what the outer surface leaves, or all that nothing else needs") {
