@@ -78,6 +78,6 @@ expect_usage_error "workers" simulate "$inputs/0.1.json" --workers 0
 echo '{}' >"$inputs/none.json"
 expect_error 'none.json:1: there is no "otherData"' simulate "$inputs/none.json"
 expect_error "nowhere.json: cannot be opened" simulate nowhere.json
-expect_error "cannot create" mesh "$inputs/cube.off" --size 0.1 --trace /nowhere/trace.json
+expect_error "cannot create" mesh "$inputs/cube.off" --size 0.1 --trace "$inputs/cube.off/trace.json"
 
 finish
