@@ -60,7 +60,7 @@ above "$least" 12 || fault "the least angle is $least"
 without=$hash
 "$driver" view "$sandbox/work/out" --report "$sandbox/work/report.json" --png "$sandbox/work/view.png" -o "$sandbox/work/view.html" \
   >"$sandbox/stdout" 2>"$sandbox/stderr"
-grep -q '1 left out (green)' "$sandbox/stdout" "$sandbox/stderr" || fault "the view does not mark it"
+grep -q '1 x detail left out (green)' "$sandbox/stdout" "$sandbox/stderr" || fault "the view does not mark it"
 
 for option in "--workers 1" "--executor threads" "--executor serial"; do
   mesh -s 1 $option
