@@ -50,8 +50,6 @@ public:
   simplicial_mesh<3> result();
 
 private:
-  /// Points before which all keep their numbers: those that are frozen, or corners of frozen sides.
-  std::size_t numbered_by_caller() const;
   local_id tag(std::size_t e) const { return mesh_.tags.empty() ? 0 : mesh_.tags[e]; }
   void fix(const simplex<2>& side) {
     for (const local_id v : side)

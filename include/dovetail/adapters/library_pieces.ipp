@@ -10,7 +10,6 @@
 #include "dovetail/improver/point_numbering.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/quality.hpp"
-#include "dovetail/mesh/unused_points.hpp"
 #include "dovetail/mesh/validity.hpp"
 
 #include <algorithm>
@@ -201,13 +200,6 @@ DOVETAIL_INLINE void piece_cutter::add(local_id tag, const library_piece& piece,
   }
 }
 
-DOVETAIL_INLINE std::size_t piece_cutter::numbered_by_caller() const {
-  auto last = static_cast<local_id>(frozen_.points) - 1;
-  for (const auto& side : frozen_.sides)
-    last = std::max({last, side[0], side[1], side[2]});
-  return static_cast<std::size_t>(last + 1);
-}
-
 DOVETAIL_INLINE simplicial_mesh<3> piece_cutter::result() {
   const point_numbering numbers(is_fixed_, free_points_.size());
   simplicial_mesh<3> whole{mesh_.points, std::move(elements_), {}};
@@ -219,8 +211,6 @@ DOVETAIL_INLINE simplicial_mesh<3> piece_cutter::result() {
       if (v < 0)
         v = numbers.of_free[-1 - v];
   fill_gaps(numbers, whole);
-  if (!numbers.gaps.empty())
-    drop_unused_points(whole, numbered_by_caller());
   if (!mesh_.tags.empty())
     whole.tags = std::move(tags_);
   return whole;
