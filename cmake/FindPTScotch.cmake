@@ -11,7 +11,7 @@ find_package_handle_standard_args(PTScotch
   REQUIRED_VARS PTScotch_LIBRARY PTScotch_ERROR_LIBRARY PTScotch_INCLUDE_DIR MPI_CXX_FOUND)
 
 if(PTScotch_FOUND AND NOT TARGET PTScotch::PTScotch)
-  # Up to some 7.0 the library has the functions of Scotch in it; then it needs Scotch's own library as well.
+  # Older versions have the functions of Scotch in this library; newer ones leave them in Scotch's own.
   include(CheckCXXSourceCompiles)
   set(CMAKE_REQUIRED_LIBRARIES "${PTScotch_LIBRARY};${PTScotch_ERROR_LIBRARY};MPI::MPI_CXX")
   check_cxx_source_compiles("extern \"C\" int SCOTCH_graphInit(void*); int main() { return SCOTCH_graphInit(nullptr); }"

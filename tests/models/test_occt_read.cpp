@@ -221,9 +221,8 @@ TEST_CASE("a file that wants more memory than there is, is not called damaged") 
   for (const std::uint64_t megabytes : {1, 4, 8, 12, 16, 24, 32}) {
     CAPTURE(megabytes);
     const std::string failure = end_with_limit(folder / "large.step", megabytes << 20);
-    CAPTURE(failure); // where Open CASCADE wants memory while it cleans up it ends the process, or crashes
-    CHECK((failure == "out of memory" || failure.find("signal 6") != std::string::npos ||
-           failure.find("signal 11") != std::string::npos));
+    CAPTURE(failure); // where Open CASCADE wants memory while it cleans up it ends the process by itself
+    CHECK((failure == "out of memory" || failure.find("signal 6") != std::string::npos));
     told += failure == "out of memory" ? 1 : 0;
   }
   CHECK(told >= 4);

@@ -21,7 +21,7 @@ for document in *.md docs/*.md docs/*/*.md; do
     anchors_of "$file" | grep -qxF -- "${target#*#}" || { echo "$document: $target: there is no such heading"; problems=1; }
   done < <(awk '/^```/ { code = !code; next } !code' "$document" | grep -oE '\]\([^) ]+\)' | sed 's/^](//; s/)$//')
 done
-if grep -rnE '^(<{7}|>{7})( |$)' --include='*' --exclude-dir=build --exclude-dir=.git .; then
+if grep -rInE '^(<{7}|>{7})( |$)' --exclude-dir='build*' --exclude-dir=.git .; then
   echo "marks of a merge are left"
   problems=1
 fi
