@@ -186,11 +186,11 @@ TEST_CASE("Pieces and reports survive encoding") {
 
 TEST_CASE("ranks with spools of their own give each other what is missing") {
   const testing::scratch_folder folder("spools");
-  const run_identity identity{{"test", "1"}};
+  const run_identity of_test{{"test", "1"}};
   const auto blob = [](int i) { return byte_buffer(static_cast<std::size_t>(10 + i), std::byte{7}); };
   parallel::run_ranks(3, [&](parallel::in_process& mine) {
     any_communicator network(mine);
-    const auto own = spool::start(folder / std::to_string(network.rank()), identity).of_one_rank();
+    const auto own = spool::start(folder / std::to_string(network.rank()), of_test).of_one_rank();
     CHECK_FALSE(own.is_common());
     std::vector<std::string> names{"nobody"};
     for (int i = 0; i < 40; ++i) {

@@ -241,7 +241,8 @@ TEST_CASE("what cannot be adapted is refused by typed errors") {
   unsigned state = 1;
   for (int round = 0; round < 100; ++round) { // wrong arrays of many kinds
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    constexpr double wrong[] = {0.0, -0.0, -1.0, infinite, -infinite, std::nan(""), -1e-320};
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    constexpr double wrong[] = {0.0, -0.0, -1.0, infinite, -infinite, unknown, -1e-320};
     state = state * 1664525u + 1013904223u;
     std::vector<double> sizes(count, 0.1);
     const std::size_t at = (state >> 8) % count;

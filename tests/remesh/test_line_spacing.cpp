@@ -60,7 +60,6 @@ TEST_CASE("options: least number of segments and largest turn") {
 TEST_CASE("few segments become one, two or four when asked to") {
   const remesh::line_spacing even{.even_when_few = true};
   const auto segments = [&](double length) {
-    const auto straight = [&](double t) { return curve_frame{{t, 0, 0}, {1, 0, 0}}; };
     return even(straight, 0, length, [](vec3) { return 1.0; }).size() - 1;
   };
   CHECK(segments(0.3) == 1);
