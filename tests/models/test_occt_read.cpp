@@ -14,8 +14,10 @@
 #include <IGESControl_Writer.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
+#include <Standard_Version.hxx>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
@@ -61,6 +63,18 @@ void write_named_step(const std::filesystem::path& path, const char* unit) {
   writer.SetNameMode(true);
   writer.SetLayerMode(true);
   REQUIRE(writer.Perform(document, path.c_str()));
+}
+
+/// Of the points in a STEP file, as they stand there.
+double largest_coordinate(const std::string& step) {
+  double largest = 0;
+  const std::string point = "CARTESIAN_POINT('',(";
+  for (std::size_t at = step.find(point); at != std::string::npos; at = step.find(point, at + 1)) {
+    std::istringstream numbers(step.substr(at + point.size(), step.find(')', at) - at - point.size()));
+    for (std::string number; std::getline(numbers, number, ',');)
+      largest = std::max(largest, std::stod(number));
+  }
+  return largest;
 }
 
 } // namespace
@@ -210,6 +224,9 @@ std::string end_with_limit(const std::filesystem::path& file, std::uint64_t more
 }
 
 TEST_CASE("a file that wants more memory than there is, is not called damaged") {
+  const bool has_faults = OCC_VERSION_HEX >= 0x070800; // its reader goes on with what it did not get
+  const char* own_end = has_faults ? "ended by signal" : "signal 6";
+  const int least_told = has_faults ? 1 : 4;
   const scratch_folder folder("memory");
   std::string step =
       "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
@@ -222,10 +239,12 @@ TEST_CASE("a file that wants more memory than there is, is not called damaged") 
     CAPTURE(megabytes);
     const std::string failure = end_with_limit(folder / "large.step", megabytes << 20);
     CAPTURE(failure); // where Open CASCADE wants memory while it cleans up it ends the process by itself
-    CHECK((failure == "out of memory" || failure.find("signal 6") != std::string::npos));
-    told += failure == "out of memory" ? 1 : 0;
+    const bool is_told = failure == "out of memory";
+    const bool is_ended = failure.find(own_end) != std::string::npos;
+    CHECK((is_told || is_ended));
+    told += is_told ? 1 : 0;
   }
-  CHECK(told >= 4);
+  CHECK(told >= least_told);
 }
 
 TEST_CASE("reading that does not end is given up, and stops when asked") {
@@ -305,11 +324,14 @@ TEST_CASE("coordinates come in millimetres, or in the file's unit when asked") {
   const scratch_folder folder("units");
   write_named_step(folder / "inch.step", "INCH");
   const auto width = [](const occt_model& model) { return model.bounds().upper.x - model.bounds().lower.x; };
-  // The writer puts the numbers into the file as they are, so the block is 50.8 inches wide.
-  const double millimetres = 50.8 * 25.4;
+  // Writers before Open CASCADE 7.8 put the numbers into the file as they are, so that the block is 50.8
+  // inches wide.
+  const double inches = largest_coordinate(file_content(folder / "inch.step"));
+  REQUIRE((inches == doctest::Approx(50.8) || inches == doctest::Approx(2)));
+  const double millimetres = inches * 25.4;
   CHECK(width(read_occt_model(folder / "inch.step").model) == doctest::Approx(millimetres));
   CHECK(width(read_occt_model(folder / "inch.step", {occt::length_unit::file}).model) ==
-        doctest::Approx(50.8));
+        doctest::Approx(inches));
   CHECK(width(read_occt_model(folder / "inch.step").model) ==
         doctest::Approx(millimetres)); // nothing is left set
 }

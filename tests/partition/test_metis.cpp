@@ -14,6 +14,25 @@ TEST_CASE("METIS, recursive, satisfies the partitioner contract") {
   dovetail_test::check_partitioner_contract(partition::metis{.recursive = true}, 1.03);
 }
 
+TEST_CASE("METIS tries four partitions of small graphs and one of large ones") {
+  const auto trials_that_serve = [](int cubes, int least_parts) {
+    const csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(cubes));
+    bool differ = false; // one and four need not give different partitions each time
+    std::vector<int> found{1, 4};
+    for (int parts = least_parts; parts < least_parts + 6; ++parts) {
+      const auto given = partition::metis{}(graph, parts);
+      const auto by_one = partition::metis{.trials = 1}(graph, parts);
+      const auto by_four = partition::metis{.trials = 4}(graph, parts);
+      differ = differ || by_one != by_four;
+      std::erase_if(found, [&](int trials) { return given != (trials == 1 ? by_one : by_four); });
+    }
+    CHECK(differ);
+    return found;
+  };
+  CHECK(trials_that_serve(12, 10) == std::vector{4}); // 10,368 nodes
+  CHECK(trials_that_serve(26, 10) == std::vector{1}); // 105,456 nodes
+}
+
 namespace {
 
 volatile std::sig_atomic_t stops = 0;

@@ -205,6 +205,8 @@ inline constexpr std::string_view utf8_mark = "\xef\xbb\xbf";
 inline attributed_shape read_step(const std::filesystem::path& path, length_unit unit,
                                   const std::string& content) {
   STEPCAFControl_Reader reader; // registers the reader's parameters too
+  // Open CASCADE 7.8 and later look at this when the file is read, earlier ones when it is transferred.
+  const reader_setting sub_shape_names("read.stepcaf.subshapes.name", "On");
   reader.SetColorMode(true);
   reader.SetNameMode(true);
   reader.SetLayerMode(true);
@@ -220,7 +222,6 @@ inline attributed_shape read_step(const std::filesystem::path& path, length_unit
   const std::string file_unit = lengths.IsEmpty() ? "" : lengths.First().ToCString();
   const char* symbol = unit == length_unit::file ? interface_unit(file_unit) : nullptr;
   const reader_setting length("xstep.cascade.unit", symbol ? symbol : "MM");
-  const reader_setting sub_shape_names("read.stepcaf.subshapes.name", "On");
   attributed_shape result = transfer(reader, path.string());
   result.file_unit = file_unit;
   return result;
