@@ -1,7 +1,7 @@
 /// Seconds of processor time per step from a coarse mesh to subdomains: adjacency, simplification, partition,
 /// repair. The mesh is a jittered lattice in a ball-like box, graded towards its centre, as is the sizing.
 /// Usage: decomposition [elements (default 3000000)] [parts (default 256)] [partitioners (default metis
-/// greedy)]
+/// greedy; metis:4 tries four partitions)]
 #include "dovetail/adapters/metis.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/mesh/quality.hpp"
@@ -101,6 +101,8 @@ int main(int argc, char** argv) {
   for (const std::string& name : partitioners)
     if (name == "metis")
       measure("metis", partition::metis{}, coarse, parts);
+    else if (name == "metis:4")
+      measure("metis:4", partition::metis{.trials = 4}, coarse, parts);
     else
       measure("greedy", partition::greedy{}, coarse, parts);
 }
