@@ -439,10 +439,10 @@ private:
                                   ? "; the thinnest is " + number_text(poor.thinnest_wall, 3) + " thick at " +
                                         place_text(poor.thinnest_place)
                                   : "";
-    figures_.warnings.push_back(std::to_string(bad) + " tetrahedra under " +
-                                std::to_string(bad_dihedral_deg) +
-                                " degrees are in walls thinner than the size" + where +
-                                ": smaller sizes there put more elements across");
+    figures_.warnings.push_back(
+        std::to_string(bad) + (bad == 1 ? " tetrahedron under " : " tetrahedra under ") +
+        std::to_string(bad_dihedral_deg) + (bad == 1 ? " degrees is in walls" : " degrees are in walls") +
+        " thinner than the size" + where + ": smaller sizes there put more elements across");
   }
 
   /// The mesh is complete before: who stops this or kills it loses the checksums only.

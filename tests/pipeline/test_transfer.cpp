@@ -193,9 +193,12 @@ TEST_CASE("fields that do not fit a mesh are refused") {
                        doctest::Contains("47 values for 48 elements"), mesh_error);
   CHECK_THROWS_AS(transferred_to_points<3>(mesh, values, mesh.points), mesh_error);
   CHECK_THROWS_AS(transferred_to_points<3>({}, {}, mesh.points), mesh_error);
-  const std::vector<vec3> nowhere{{0, std::numeric_limits<double>::quiet_NaN(), 0}};
-  CHECK_THROWS_AS(transferred_to_points<3>(mesh, std::vector<double>(mesh.points.size()), nowhere),
-                  mesh_error);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), infinite, -infinite})
+    for (const vec3 nowhere : {vec3{wrong, 0, 0}, vec3{0, wrong, 0}, vec3{0, 0, wrong}})
+      CHECK_THROWS_WITH_AS(transferred_to_points<3>(mesh, std::vector<double>(mesh.points.size()),
+                                                    std::vector<vec3>{{0, 0, 0}, nowhere}),
+                           doctest::Contains("point 1 is at"), mesh_error);
   auto flat = mesh;
   flat.points[flat.elements[3][0]] = flat.points[flat.elements[3][1]];
   CHECK_THROWS_WITH_AS(transferred_to_elements<3>(mesh, std::vector<double>(48), flat),
