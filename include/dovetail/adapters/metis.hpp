@@ -54,7 +54,7 @@ struct metis {
   bool recursive = false;  ///< recursive bisection instead of k-way
   int seed = 1;            ///< other seeds give other parts
   /// Partitions tried, of which the one with the smallest cut is taken. 0: four of graphs of up to 100,000
-  /// nodes, and one of larger ones, where four take four times as long and cut no less (benchmarks).
+  /// nodes, and one of larger ones, where four take four times as long for a cut that is hardly smaller.
   int trials = 0;
 
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts,
