@@ -68,6 +68,8 @@ inline void rename_and_sort(simplicial_mesh<3>& mesh, const std::vector<local_id
   });
   std::vector<simplex<3>> elements;
   std::vector<local_id> tags;
+  elements.reserve(mesh.elements.size());
+  tags.reserve(mesh.tags.size());
   for (const std::uint32_t e : sorted.items) {
     elements.push_back(mesh.elements[e]);
     if (!mesh.tags.empty())

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -83,12 +84,20 @@ public:
 
 private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  /// Numbers that are added and compared at once.
+  using four_floats = float __attribute__((vector_size(16)));
   struct chunk {
     static constexpr std::size_t room = 8;
-    std::array<float, room> x{}, y{}, z{}; ///< from the cell's centre, in halves of its width
+    using coordinates = std::array<float, room>;
+    coordinates x, y, z; ///< from the cell's centre, in halves of its width; infinite where no point is
     std::array<std::uint32_t, room> ids{};
     std::uint32_t count = 0;
     std::uint32_t next = none;
+
+    chunk() {
+      for (coordinates* each : {&x, &y, &z})
+        each->fill(std::numeric_limits<float>::infinity());
+    }
   };
   struct cell {
     vec3 center;
@@ -124,23 +133,28 @@ private:
     return static_cast<float>(loose * loose);
   }
 
-  /// Calls `found(id)` for the points of a chunk whose squared distance is at most `bound`. The loops are
-  /// such that compilers do several points at once.
+  /// Calls `found(id)` for the points of a chunk whose squared distance is at most `bound`.
   template <class Found>
   static void search(const chunk& in, vec3 place, float bound, const Found& found) {
     const auto x = static_cast<float>(place.x), y = static_cast<float>(place.y),
                z = static_cast<float>(place.z);
-    std::array<float, chunk::room> squared;
-    for (std::size_t i = 0; i < chunk::room; ++i) {
-      const float dx = in.x[i] - x, dy = in.y[i] - y, dz = in.z[i] - z;
-      squared[i] = dx * dx + dy * dy + dz * dz;
+    std::array<std::uint32_t, chunk::room> near;
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < chunk::room; first += 4) {
+      const auto from = [first](const chunk::coordinates& all, float origin) {
+        four_floats some;
+        std::memcpy(&some, &all[first], sizeof some);
+        return some - origin;
+      };
+      const four_floats dx = from(in.x, x), dy = from(in.y, y), dz = from(in.z, z);
+      const auto is_near = dx * dx + dy * dy + dz * dz <= bound; // -1 where it is
+      for (std::size_t i = 0; i < 4; ++i) {
+        near[count] = in.ids[first + i];
+        count += is_near[i] != 0 ? 1 : 0;
+      }
     }
-    std::uint32_t near = 0;
-    for (std::size_t i = 0; i < chunk::room; ++i)
-      near += squared[i] <= bound ? 1U : 0U;
-    for (std::size_t i = 0; near != 0 && i < in.count; ++i)
-      if (squared[i] <= bound)
-        found(in.ids[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      found(near[i]);
   }
 
   /// The node that the cell of a leaf is.
