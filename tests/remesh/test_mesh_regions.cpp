@@ -29,7 +29,7 @@ struct listed_regions {
   region_set set() const {
     region_set made;
     made.count = regions.size();
-    made.build = [listed = regions](std::size_t r) { return listed[r]; };
+    made.build = [listed = regions](const any_geometry&, std::size_t r) { return listed[r]; };
     made.surface_of = [](const any_geometry&, std::size_t) { return contract::plane_at_run_time(); };
     made.surface_keys = surface_keys;
     return made;

@@ -281,7 +281,9 @@ private:
   refined_sizing size_; ///< the given one, bounded by curvature, and the places refined
   curve_points curves_;
   std::vector<surface_region> regions_; ///< the faces
-  region_set faces_{.count = 0, .build = [this](std::size_t f) { return regions_[f]; }, .surface_of = {}};
+  region_set faces_{.count = 0,
+                    .build = [this](const any_geometry&, std::size_t f) { return regions_[f]; },
+                    .surface_of = {}};
   region_store store_{std::make_shared<entity_store>()}; ///< faces out of reach of what is refined stay
   meshed_regions meshed_;
   std::vector<patch_mesh> meshes_; ///< of the faces

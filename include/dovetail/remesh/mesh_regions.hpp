@@ -109,8 +109,9 @@ inline std::string folds_of(const patch_mesh& made) {
 /// Regions that share boundary points, by the same labels. Their boundaries together are as large as their
 /// meshes, so each is built when it is needed and not held.
 struct region_set {
-  std::size_t count = 0;                            ///< how many regions there are
-  std::function<surface_region(std::size_t)> build; ///< without `surface` and `forbids`; pure
+  std::size_t count = 0; ///< how many regions there are
+  /// A region without `surface` and `forbids`, from a model of the worker's own; pure.
+  std::function<surface_region(const any_geometry&, std::size_t)> build;
   /// The surface of a region, from a model of the worker's own.
   std::function<any_surface(const any_geometry&, std::size_t)> surface_of;
   /// What the surface of each region is a function of beside its face and boundary; empty where there is
@@ -120,8 +121,8 @@ struct region_set {
   std::map<std::size_t, std::vector<simplex<1>>> forbidden_edges = {};
 
   /// A region with its boundary and the edges it must not have.
-  surface_region region(std::size_t r) const {
-    surface_region built = build(r);
+  surface_region region(const any_geometry& own, std::size_t r) const {
+    surface_region built = build(own, r);
     if (const auto more = forbidden_edges.find(r); more != forbidden_edges.end())
       append(built.boundary.forbidden_edges, more->second);
     return built;

@@ -119,7 +119,7 @@ public:
       : model_(model), set_(set), mesh_it_(mesh_it), size_(size), run_(run), store_(store),
         options_(options) {
     for (std::size_t r = 0; r < set.count; ++r) {
-      const surface_region region = set.region(r);
+      const surface_region region = set.region(model, r);
       const auto segments = static_cast<double>(region.boundary.segments.size());
       result_.keys.push_back(key_of(r, region));
       append_row(result_.labels, region.boundary.labels);
@@ -213,7 +213,7 @@ private:
   }
 
   patch_mesh make(const any_geometry& model, std::size_t r) const {
-    const surface_region region = set_.region(r);
+    const surface_region region = set_.region(model, r);
     if (region.boundary.segments.empty())
       return {}; // a face that a model has by number only
     const any_surface surface = set_.surface_of(model, r);
@@ -257,7 +257,7 @@ private:
         changed.insert(r);
     }
     for (const std::size_t r : changed)
-      result_.keys[r] = key_of(r, set_.region(r));
+      result_.keys[r] = key_of(r, set_.region(model_, r));
     return !changed.empty();
   }
 

@@ -34,7 +34,7 @@ public:
   region_set patches() const {
     region_set set;
     set.count = skeleton_.regions.size() + skeleton_.faces.size();
-    set.build = [this](std::size_t p) { return region(p); };
+    set.build = [this](const any_geometry& own, std::size_t p) { return region(own, p); };
     set.surface_of = [this](const any_geometry& own, std::size_t p) {
       return is_region(p) ? surface_of_face(own, skeleton_.regions[p].cad_face)
                           : any_surface::holding(interface_patch(face_of(p), coarse_points_, lines_).surface);
@@ -61,7 +61,7 @@ public:
     patch_failure failure;
     (is_region(p) ? failure.region : failure.face) =
         static_cast<local_id>(is_region(p) ? p : p - skeleton_.regions.size());
-    const skeleton_patch made = patch(p);
+    const skeleton_patch made = patch(model_, p);
     const patch_boundary& boundary = made.boundary;
     std::set<local_id> segments(mesh.misplaced.begin(), mesh.misplaced.end()), lines;
     for (const auto& pair : mesh.crossings)
@@ -94,14 +94,14 @@ public:
   }
 
 private:
-  skeleton_patch patch(std::size_t p) const {
-    return is_region(p) ? region_patch(model_, surface_, skeleton_.regions[p], lines_)
+  skeleton_patch patch(const any_geometry& own, std::size_t p) const {
+    return is_region(p) ? region_patch(own, surface_, skeleton_.regions[p], lines_)
                         : interface_patch(face_of(p), coarse_points_, lines_).patch;
   }
 
-  surface_region region(std::size_t p) const {
+  surface_region region(const any_geometry& own, std::size_t p) const {
     surface_region built;
-    built.boundary = patch(p).boundary;
+    built.boundary = patch(own, p).boundary;
     if (is_region(p))
       built.face = skeleton_.regions[p].cad_face;
     built.reversed = is_reversed(p);
