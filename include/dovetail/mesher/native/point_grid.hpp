@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -22,8 +21,8 @@ struct gathered_point {
 
 /// Cells are leaves, or where all octants of a node are leaves the node: some sizes wide, so that a ball of a
 /// size meets few of them. A cell's points lie in chunks that are searched in single precision, in units of
-/// the cell and several at once; what that finds is looked at in double. A cell's neighbours are looked up
-/// once, when first wanted.
+/// the cell; what that finds is looked at in double. A cell's neighbours are looked up once, when first
+/// wanted.
 class point_grid {
 public:
   /// For radii of at most `reach` times the size at the place.
@@ -84,20 +83,12 @@ public:
 
 private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  /// Numbers that are added and compared at once.
-  using four_floats = float __attribute__((vector_size(16)));
   struct chunk {
     static constexpr std::size_t room = 8;
-    using coordinates = std::array<float, room>;
-    coordinates x, y, z; ///< from the cell's centre, in halves of its width; infinite where no point is
+    std::array<float, room> x{}, y{}, z{}; ///< from the cell's centre, in halves of its width
     std::array<std::uint32_t, room> ids{};
     std::uint32_t count = 0;
     std::uint32_t next = none;
-
-    chunk() {
-      for (coordinates* each : {&x, &y, &z})
-        each->fill(std::numeric_limits<float>::infinity());
-    }
   };
   struct cell {
     vec3 center;
@@ -138,23 +129,17 @@ private:
   static void search(const chunk& in, vec3 place, float bound, const Found& found) {
     const auto x = static_cast<float>(place.x), y = static_cast<float>(place.y),
                z = static_cast<float>(place.z);
-    std::array<std::uint32_t, chunk::room> near;
-    std::size_t count = 0;
-    for (std::size_t first = 0; first < chunk::room; first += 4) {
-      const auto from = [first](const chunk::coordinates& all, float origin) {
-        four_floats some;
-        std::memcpy(&some, &all[first], sizeof some);
-        return some - origin;
-      };
-      const four_floats dx = from(in.x, x), dy = from(in.y, y), dz = from(in.z, z);
-      const auto is_near = dx * dx + dy * dy + dz * dz <= bound; // -1 where it is
-      for (std::size_t i = 0; i < 4; ++i) {
-        near[count] = in.ids[first + i];
-        count += is_near[i] != 0 ? 1 : 0;
-      }
+    std::array<float, chunk::room> squared;
+    for (std::size_t i = 0; i < chunk::room; ++i) {
+      const float dx = in.x[i] - x, dy = in.y[i] - y, dz = in.z[i] - z;
+      squared[i] = dx * dx + dy * dy + dz * dz;
     }
-    for (std::size_t i = 0; i < count; ++i)
-      found(near[i]);
+    std::uint32_t near = 0;
+    for (std::size_t i = 0; i < chunk::room; ++i)
+      near += squared[i] <= bound ? 1U : 0U;
+    for (std::size_t i = 0; near != 0 && i < in.count; ++i)
+      if (squared[i] <= bound)
+        found(in.ids[i]);
   }
 
   /// The node that the cell of a leaf is.
