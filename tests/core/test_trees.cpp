@@ -114,6 +114,34 @@ TEST_CASE("an octree finds the leaf around a point, and its children are the oct
     CHECK(distance(tree.box(tree.child(0, k)).center(), octant(tree.bounds(), k).center()) < 1e-12);
 }
 
+TEST_CASE("the leaf around a point is the one whose corners are around it, to the last bit") {
+  for (const vec3 middle : {vec3{0, 0, 0}, vec3{3e5, -7e4, 1e-3}}) {
+    octree tree(cube_around({middle - vec3{1, 0.7, 0.3}, middle + vec3{1, 0.7, 0.3}}));
+    for (int level = 0; level < octree::largest_depth; ++level) // to the smallest leaves there are
+      tree.split(tree.locate(middle + vec3{0.37, -0.21, 0.11}));
+    const auto is_around = [&](const box3& box, vec3 p) {
+      bool around = true;
+      for (int axis = 0; axis < 3; ++axis) // what is on the cube's upper faces has no leaf beyond it
+        around = around && box.lower[axis] <= p[axis] &&
+                 (p[axis] < box.upper[axis] || box.upper[axis] == tree.bounds().upper[axis]);
+      return around;
+    };
+    for (std::size_t k = 0; k < tree.leaf_count(); ++k)
+      for (std::uint32_t corner = 0; corner < 8; ++corner) {
+        const vec3 at = tree.corner_point(tree.corner_key(tree.leaf(k), corner));
+        for (const double towards : {-1e9, 0.0, 1e9}) {
+          vec3 p = at;
+          for (int axis = 0; axis < 3; ++axis) {
+            if (towards != 0)
+              p[axis] = std::nextafter(at[axis], towards);
+            p[axis] = std::clamp(p[axis], tree.bounds().lower[axis], tree.bounds().upper[axis]);
+          }
+          CHECK(is_around(tree.box(tree.locate(p)), p));
+        }
+      }
+  }
+}
+
 TEST_CASE("candidates are all items that may concern a point, in the order given") {
   const auto centers = random_points(400, 8);
   const double radius = 0.2;

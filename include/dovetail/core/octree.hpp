@@ -91,12 +91,10 @@ public:
 
   /// The leaf that contains p, which must lie in `bounds()`.
   std::size_t locate(vec3 p) const {
+    const key place = smallest_leaf_around(p);
     std::size_t at = 0;
-    while (nodes_[at].inner) {
-      const vec3 center = corner_point(center_key(nodes_[at]));
-      at = nodes_[at].link + (p.x >= center.x ? 1U : 0U) + (p.y >= center.y ? 2U : 0U) +
-           (p.z >= center.z ? 4U : 0U);
-    }
+    for (int bit = largest_depth - 1; nodes_[at].inner; --bit)
+      at = nodes_[at].link + (place[0] >> bit & 1U) + 2 * (place[1] >> bit & 1U) + 4 * (place[2] >> bit & 1U);
     return at;
   }
 
@@ -164,9 +162,22 @@ private:
   };
 
   static std::uint32_t width_of(const node_data& n) { return 1U << (largest_depth - n.depth); }
-  static key center_key(const node_data& n) {
-    const std::uint32_t half = width_of(n) / 2;
-    return {n.lower[0] + half, n.lower[1] + half, n.lower[2] + half};
+  /// The lower corner of the smallest leaf that there could be around p. The division may round across one
+  /// of its ends, so that these are compared with p as well: which leaf has p is a matter of `corner_point`.
+  key smallest_leaf_around(vec3 p) const {
+    constexpr std::int32_t last = (1 << largest_depth) - 1;
+    key place;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double lower = cube_.lower[axis], x = p[axis];
+      const double leaves = (x - lower) / unit_;
+      std::int32_t at = leaves > 0 ? static_cast<std::int32_t>(leaves < last ? leaves : last) : 0;
+      if (at > 0 && x < lower + unit_ * at)
+        --at;
+      if (at < last && x >= lower + unit_ * (at + 1))
+        ++at;
+      place[static_cast<std::size_t>(axis)] = static_cast<std::uint32_t>(at);
+    }
+    return place;
   }
 
   box3 cube_;
