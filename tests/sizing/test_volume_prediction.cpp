@@ -88,6 +88,50 @@ TEST_CASE("a void in a box is outside") {
   CHECK(p.elements == doctest::Approx(60000).epsilon(0.05));
 }
 
+TEST_CASE("inside a stack of plates, whichever way it lies") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> at(-0.5, 10.5);
+  for (int axis = 0; axis < 3; ++axis) {
+    simplicial_mesh<2> plates;
+    for (int k = 0; k < 10; ++k) {
+      vec3 lower{0, 0, 0}, upper{10, 10, 10};
+      lower[axis] = k;
+      upper[axis] = k + 0.25;
+      append_box(plates, lower, upper);
+    }
+    const inside_surface inside(plates);
+    CHECK(inside.triangle_count() == 120);
+    int hits = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const vec3 p{at(random), at(random), at(random)};
+      const bool in_box = contains({{0, 0, 0}, {10, 10, 10}}, p);
+      const bool in_plate = in_box && p[axis] - std::floor(p[axis]) < 0.25;
+      CHECK(inside(p) == in_plate);
+      hits += in_plate ? 1 : 0;
+    }
+    CHECK(hits > 3000);
+    CHECK(inside.signed_volume_inside() == doctest::Approx(250));
+    CHECK(inside.bounds().lower == vec3{0, 0, 0});
+    CHECK(inside.bounds().upper[axis] == 9.25);
+  }
+}
+
+TEST_CASE("no more cells than allowed") {
+  simplicial_mesh<2> plate;
+  append_box(plate, {0, 0, 0}, {10, 10, 0.02});
+  for (vec3& p : plate.points)
+    p = {0.8 * p.x - 0.6 * p.z, p.y, 0.6 * p.x + 0.8 * p.z};
+  const auto whole = predict_volume_elements(plate, uniform_size(0.01), {.density = 1});
+  for (const std::size_t cells : {5000, 10'000, 20'000}) {
+    REQUIRE(whole.cells > cells);
+    const auto rough =
+        predict_volume_elements(plate, uniform_size(0.01), {.density = 1, .largest_cells = cells});
+    CHECK(rough.cells <= cells);
+    CHECK(rough.relative_error > whole.relative_error);
+    CHECK(rough.elements == doctest::Approx(2e6).epsilon(0.1));
+  }
+}
+
 TEST_CASE("an open surface is refused") {
   simplicial_mesh<2> mesh;
   append_box(mesh, {0, 0, 0}, {1, 1, 1});

@@ -178,8 +178,10 @@ template <int D>
 element_prediction predict_mesh(const surface_mesh& surface, const geometry_topology& topology,
                                 const any_sizing& size, double elements_per_unit_size) {
   if constexpr (D == 3) {
+    // Thin walls would want millions, and be predicted no better by them.
+    constexpr std::size_t cells = 400'000;
     return predict_volume_elements(outer_surface(surface, topology), size,
-                                   {.density = elements_per_unit_size});
+                                   {.density = elements_per_unit_size, .largest_cells = cells});
   } else {
     return predict_elements<2>(surface.mesh, size);
   }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "dovetail/core/octree.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/inside_surface.hpp"
 #include "dovetail/sizing/prediction.hpp"
 
@@ -13,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -143,9 +143,8 @@ element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surf
   const double width = 1.0037 * std::max({extent.x, extent.y, extent.z});
   const vec3 lower = bounds.lower - 0.00171 * vec3{width, width, width};
   sizing::volume_cell root{{lower, lower + vec3{width, width, width}}};
-  inside.tree().for_each([](const box3&, std::size_t) { return true; },
-                         [&](local_id t) { root.triangles.push_back(t); });
-  sort_all(root.triangles);
+  root.triangles.resize(inside.triangle_count());
+  std::iota(root.triangles.begin(), root.triangles.end(), local_id{0});
   std::vector<sizing::volume_cell> cells{std::move(root)};
   cells.front().error = std::numeric_limits<double>::infinity();
 
@@ -160,8 +159,9 @@ element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surf
     result.relative_error = total > 0 ? error / total : 1;
     const bool close = total > 0 && result.relative_error <= options.relative_error;
     // Sizes too small for any number give an infinite total, of which no cell is a part worth splitting.
-    if (round >= sure_rounds &&
-        (close || cells.size() > options.largest_cells || cells.empty() || !std::isfinite(total)))
+    const auto to_split = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
+    const bool too_many = cells.size() + 7 * to_split > options.largest_cells;
+    if (round >= sure_rounds && (close || too_many || cells.empty() || !std::isfinite(total)))
       break;
     next.clear();
     for (std::size_t i = 0; i < cells.size(); ++i)
