@@ -199,6 +199,14 @@ TEST_CASE("fields that do not fit a mesh are refused") {
       CHECK_THROWS_WITH_AS(transferred_to_points<3>(mesh, std::vector<double>(mesh.points.size()),
                                                     std::vector<vec3>{{0, 0, 0}, nowhere}),
                            doctest::Contains("point 1 is at"), mesh_error);
+  for (const double wrong : {std::numeric_limits<double>::quiet_NaN(), infinite, -infinite}) {
+    std::vector<double> at_points(2 * mesh.points.size()), in_elements(2 * mesh.elements.size());
+    at_points[11] = in_elements[46] = wrong;
+    CHECK_THROWS_WITH_AS(transferred_to_points<3>(mesh, at_points, mesh.points, 2),
+                         doctest::Contains("a value of point 5 is not finite"), mesh_error);
+    CHECK_THROWS_WITH_AS(transferred_to_elements<3>(mesh, in_elements, mesh, 2),
+                         doctest::Contains("a value of element 23 is not finite"), mesh_error);
+  }
   auto flat = mesh;
   flat.points[flat.elements[3][0]] = flat.points[flat.elements[3][1]];
   CHECK_THROWS_WITH_AS(transferred_to_elements<3>(mesh, std::vector<double>(48), flat),

@@ -12,8 +12,8 @@ namespace dovetail {
 /// A field that is linear in the elements of `from`, at the points `to`; beside the mesh it has the value of
 /// the nearest point of it. `values` has `components` numbers for each point of `from`, one after the other,
 /// and so has the result for each of `to`. O(n log n + m log n). Throws `mesh_error` for a mesh without
-/// elements or with one that names no point, for a point that is not finite, and for another number of
-/// values.
+/// elements or with one that names no point, for a point or a value that is not finite, and for another
+/// number of values.
 ///
 ///     const auto next = whole_mesh(adapt<3>(model, mesh, sizes, policies));
 ///     u = transferred_to_points<3>(mesh.mesh, u, next.mesh.points);

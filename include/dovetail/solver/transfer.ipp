@@ -266,8 +266,13 @@ template <int D>
 void require_values(std::span<const double> values, std::size_t wanted, int components, const char* what) {
   if (components < 1 || values.size() != wanted * static_cast<std::size_t>(components))
     throw mesh_error("fields cannot be transferred: there are " + std::to_string(values.size()) +
-                     " values for " + std::to_string(wanted) + " " + what + " with " +
+                     " values for " + std::to_string(wanted) + " " + what + "s with " +
                      std::to_string(components) + " each");
+  const auto bad = std::find_if_not(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (bad != values.end())
+    throw mesh_error("fields cannot be transferred: a value of " + std::string(what) + " " +
+                     std::to_string((bad - values.begin()) / components) +
+                     " is not finite; give it one, or leave the field out");
 }
 
 } // namespace detail
@@ -275,7 +280,7 @@ void require_values(std::span<const double> values, std::size_t wanted, int comp
 template <int D>
 std::vector<double> transferred_to_points(const simplicial_mesh<D>& from, std::span<const double> values,
                                           std::span<const vec3> to, int components) {
-  detail::require_values<D>(values, from.points.size(), components, "points");
+  detail::require_values<D>(values, from.points.size(), components, "point");
   const detail::element_places<D> places(from);
   const auto count = static_cast<std::size_t>(components);
   std::vector<double> result(to.size() * count, 0);
@@ -295,7 +300,7 @@ std::vector<double> transferred_to_points(const simplicial_mesh<D>& from, std::s
 template <int D>
 std::vector<double> transferred_to_elements(const simplicial_mesh<D>& from, std::span<const double> values,
                                             const simplicial_mesh<D>& to, int components) {
-  detail::require_values<D>(values, from.elements.size(), components, "elements");
+  detail::require_values<D>(values, from.elements.size(), components, "element");
   const detail::element_places<D> old_mesh(from), new_mesh(to);
   auto shares = detail::element_shares(old_mesh, to, new_mesh);
 
