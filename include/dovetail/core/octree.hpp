@@ -162,8 +162,8 @@ private:
   };
 
   static std::uint32_t width_of(const node_data& n) { return 1U << (largest_depth - n.depth); }
-  /// The lower corner of the smallest leaf that there could be around p. The division may round across one
-  /// of its ends, so that these are compared with p as well: which leaf has p is a matter of `corner_point`.
+  /// The lower corner of the smallest leaf that there could be around p. The division may round to the leaf
+  /// beside it, so p is compared with the ends too: leaves meet exactly where `corner_point` says.
   key smallest_leaf_around(vec3 p) const {
     constexpr std::int32_t last = (1 << largest_depth) - 1;
     key place;

@@ -35,7 +35,7 @@ public:
   bool may_meet(local_id triangle, const box3& box) const;
 
 private:
-  /// The axes exchanged in turn, so that that of the rays comes first.
+  /// A place with its coordinates in cyclic order, from the axis of the rays on.
   vec3 turned(vec3 p) const {
     return axis_ == 0 ? p : axis_ == 1 ? vec3{p.y, p.z, p.x} : vec3{p.z, p.x, p.y};
   }
@@ -51,7 +51,7 @@ private:
 
   /// Seen along the rays: is p left of the edge from the smaller to the larger vertex id? Ties count as not.
   bool left_of_edge(local_id from, local_id to, vec3 p) const;
-  /// Does the ray from p cross the triangle? All is turned. `ahead`: in which direction along the axis.
+  /// Does the ray from p, turned, cross the triangle? It goes up the axis (`ahead`) or down.
   bool crossed(std::size_t t, vec3 p, bool ahead) const;
 
   std::vector<vec3> points_;

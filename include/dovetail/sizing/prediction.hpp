@@ -32,7 +32,7 @@ struct prediction_options {
   /// Elements of edge length 1 per unit of volume or area; 0 takes `elements_per_unit<D>`.
   double density = 0;
   double relative_error = 0.05;          ///< refine until the estimated error of the total is below this
-  std::size_t largest_cells = 1'000'000; ///< about; then the error is the one reached
+  std::size_t largest_cells = 1'000'000; ///< about the most; the error may then be larger
 };
 
 /// A predicted number of elements.

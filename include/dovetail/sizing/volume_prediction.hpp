@@ -158,9 +158,9 @@ element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surf
     const double error = sizing::mark_volume_cells(cells, options.relative_error * total, marked);
     result.relative_error = total > 0 ? error / total : 1;
     const bool close = total > 0 && result.relative_error <= options.relative_error;
-    // Sizes too small for any number give an infinite total, of which no cell is a part worth splitting.
     const auto to_split = static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1));
-    const bool too_many = cells.size() + 7 * to_split > options.largest_cells;
+    const bool too_many = cells.size() + 7 * to_split > options.largest_cells; // eight for each that is split
+    // Sizes too small for any number give an infinite total, of which no cell is a part worth splitting.
     if (round >= sure_rounds && (close || too_many || cells.empty() || !std::isfinite(total)))
       break;
     next.clear();
