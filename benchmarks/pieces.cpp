@@ -111,6 +111,7 @@ int main(int argc, char** argv) try {
       mesher.to = &found;
       measured_improver improver;
       improver.to = &found;
+      improver.wrapped.statistics = false; // as in the driver
       const auto with_threads =
           bind_parameters<3>(policies.with_mesher(mesher).with_improver(improver).with_executor(
               parallel::threads{.worker_count = threads}));

@@ -6,6 +6,7 @@
 #include "dovetail/core/policy.hpp"
 
 #include <concepts>
+#include <type_traits>
 #include <utility>
 
 namespace dovetail {
@@ -36,5 +37,22 @@ struct wrapped_policy {
     return changed;
   }
 };
+
+namespace detail {
+
+template <class Self, class Policy>
+std::type_identity<Self> self_of(const wrapped_policy<Self, Policy>& wrapper);
+
+/// Whether a policy that derives from `wraps<Self, Policy>` is that `Self`: what is made of another one, such
+/// as fallbacks, would lose what this one changes.
+template <class Policy>
+consteval bool wraps_by_itself() {
+  if constexpr (requires(const Policy& policy) { self_of(policy); })
+    return std::same_as<decltype(self_of(std::declval<const Policy&>())), std::type_identity<Policy>>;
+  else
+    return true;
+}
+
+} // namespace detail
 
 } // namespace dovetail

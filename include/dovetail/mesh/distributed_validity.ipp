@@ -135,8 +135,7 @@ DOVETAIL_INLINE bool add_up_to_skeleton(const mesh_piece& piece, const fine_skel
   for (simplex<3> element : piece.mesh.elements) {
     for (local_id& v : element)
       v = v < shared ? piece.skeleton_points[v] : v + first_own;
-    for (const auto& local : numbering::sides<3>)
-      found.add(dovetail::detail::pick(element, local));
+    found.add_sides_of(element);
   }
   return found == expected;
 }

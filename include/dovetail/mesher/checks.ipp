@@ -10,6 +10,7 @@
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/chain_sum.hpp"
 #include "dovetail/mesh/require_valid.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
@@ -155,8 +156,7 @@ DOVETAIL_INLINE void require_enclosing(const simplicial_mesh<2>& boundary) {
       throw mesher_error("boundary triangle " + std::to_string(t) + " (points " +
                          detail::listed_points(triangle) +
                          ") is flat: its area is 0; remove it or move a point of it");
-    for (const auto& local : numbering::sides<2>)
-      edges.add(detail::pick(triangle, local));
+    edges.add_sides_of(triangle);
   }
   if (!(edges == chain_sum{}))
     detail::throw_open_edge(boundary);

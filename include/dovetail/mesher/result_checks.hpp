@@ -4,10 +4,8 @@
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/chain_sum.hpp"
 #include "dovetail/mesh/simplex.hpp"
-#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <array>
@@ -54,8 +52,7 @@ bool fit_together(const simplicial_mesh<D - 1>& boundary, const simplicial_mesh<
   for (const simplex<D - 1>& side : boundary.elements)
     expected.add(side);
   for (const simplex<D>& element : mesh.elements)
-    for (const auto& local : numbering::sides<D>)
-      found.add(pick(element, local));
+    found.add_sides_of(element);
   return found == expected;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/progress.hpp"
+#include "dovetail/core/wrapped_policy.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesher/concepts.hpp"
@@ -98,6 +99,12 @@ template <class Mesher = default_mesher, class Partitioner = partition::greedy,
           class Rule = simplifier::paper, class BackgroundImprover = improvement::native,
           class SurfaceMesher = remesh::patch_remesher>
 struct parameters {
+  static_assert(detail::wraps_by_itself<Mesher>() && detail::wraps_by_itself<Partitioner>() &&
+                    detail::wraps_by_itself<Improver>() && detail::wraps_by_itself<Executor>() &&
+                    detail::wraps_by_itself<Rule>() && detail::wraps_by_itself<BackgroundImprover>() &&
+                    detail::wraps_by_itself<SurfaceMesher>(),
+                "a policy derives from wraps<Self, Policy> with another Self than its own type");
+
   Mesher mesh_it{};           ///< makes the elements of a subdomain
   Partitioner partition_it{}; ///< cuts the graph of super-elements
   Improver improve_it{};      ///< improves the elements of a subdomain

@@ -24,6 +24,14 @@
 // first error 12: model_wraps holds a geometry_model
 // near miss 13: sizes that are none
 // first error 13: sizing::wraps holds a sizing_field
+// near miss 14: a mesher that derives from the base of another one
+// first error 14: derives from wraps<Self, Policy> with another Self
+// near miss 15: an improver that does
+// first error 15: derives from wraps<Self, Policy> with another Self
+// near miss 16: a partitioner that does
+// first error 16: derives from wraps<Self, Policy> with another Self
+// near miss 17: a surface mesher that does
+// first error 17: derives from wraps<Self, Policy> with another Self
 #include "dovetail/distributed/wraps.hpp"
 #include "dovetail/files/wraps.hpp"
 #include "dovetail/geometry/wraps.hpp"
@@ -65,6 +73,12 @@ struct my_model : model_wraps<my_model<P>, P> {};
 template <class P>
 struct my_size : sizing::wraps<my_size<P>, P> {};
 
+struct copied_mesher : mesher::wraps<my_mesher<mesher::native>, mesher::native> {};
+struct copied_improver : improvement::wraps<my_improver<improvement::native>, improvement::native> {};
+struct copied_partitioner : partition::wraps<my_partitioner<partition::greedy>, partition::greedy> {};
+struct copied_surface_mesher
+    : remesh::wraps<my_surface_mesher<remesh::patch_remesher>, remesh::patch_remesher> {};
+
 void call(const adaptable_mesh<3>& mesh) {
 #if NEAR_MISS == 1
   my_mesher<nothing>{};
@@ -92,7 +106,20 @@ void call(const adaptable_mesh<3>& mesh) {
   my_model<nothing>{};
 #elif NEAR_MISS == 13
   my_size<nothing>{};
+#elif NEAR_MISS == 14
+  parameters<>{}.with_mesher(copied_mesher{});
+#elif NEAR_MISS == 15
+  parameters<>{}.with_improver(copied_improver{});
+#elif NEAR_MISS == 16
+  parameters<>{}.with_partitioner(copied_partitioner{});
+#elif NEAR_MISS == 17
+  parameters<>{}.with_surface_mesher(copied_surface_mesher{});
 #else
+  parameters<>{}
+      .with_mesher(my_mesher<mesher::native>{})
+      .with_improver(my_improver<improvement::native>{})
+      .with_partitioner(my_partitioner<partition::greedy>{})
+      .with_surface_mesher(my_surface_mesher<remesh::patch_remesher>{});
   adapt<3>(mesh, uniform_size(1), parameters<>{});
 #endif
 }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,46 +42,65 @@ inline void fix_outer_sides(tet_complex& mesh) {
         mesh.fix_side(e, side);
 }
 
-/// The frozen sides by the complex's own names, each with its corners in ascending order.
-inline std::vector<std::array<local_id, 3>> frozen_keys(const tet_complex& mesh,
-                                                        const frozen_entities<3>& frozen) {
-  std::vector<local_id> names(static_cast<std::size_t>(mesh.given_vertices()));
-  for (local_id v = 0; v < mesh.given_vertices(); ++v)
-    names[mesh.given_number(v)] = v;
-  std::vector<std::array<local_id, 3>> keys;
-  for (simplex<2> side : frozen.sides) {
-    for (const local_id number : side)
-      if (number < 0 || number >= mesh.given_vertices())
-        refuse_frozen_side(side);
-    for (auto& v : side)
-      v = names[v];
-    sort_all(side);
-    keys.push_back(side);
+/// The frozen sides by the complex's own names, to be looked up.
+class frozen_sides {
+public:
+  /// Throws `mesh_error` when a side has a vertex that does not exist.
+  frozen_sides(const tet_complex& mesh, const frozen_entities<3>& frozen)
+      : first_of_(static_cast<std::size_t>(mesh.vertex_slots()) + 1, 0),
+        has_vertex_(static_cast<std::size_t>(mesh.vertex_slots()), 0) {
+    std::vector<local_id> names(static_cast<std::size_t>(mesh.given_vertices()));
+    for (local_id v = 0; v < mesh.given_vertices(); ++v)
+      names[mesh.given_number(v)] = v;
+    for (simplex<2> side : frozen.sides) {
+      for (const local_id number : side)
+        if (number < 0 || number >= mesh.given_vertices())
+          refuse_frozen_side(side);
+      for (auto& v : side)
+        v = names[v];
+      sort_all(side);
+      keys_.push_back(side);
+    }
+    sort_unique(keys_);
+    for (const auto& key : keys_) {
+      ++first_of_[key[0] + 1];
+      for (const local_id v : key)
+        has_vertex_[v] = 1;
+    }
+    std::partial_sum(first_of_.begin(), first_of_.end(), first_of_.begin());
   }
-  sort_unique(keys);
-  return keys;
-}
+
+  /// Each with its corners in ascending order.
+  const std::vector<std::array<local_id, 3>>& keys() const { return keys_; }
+  /// Whether one of them may be a side of an element with these vertices.
+  bool may_have_one(const simplex<3>& v) const {
+    return has_vertex_[v[0]] + has_vertex_[v[1]] + has_vertex_[v[2]] + has_vertex_[v[3]] > 2;
+  }
+  /// The number of one among the keys, or how many these are.
+  std::size_t find(const std::array<local_id, 3>& key) const {
+    for (std::size_t k = first_of_[key[0]]; k < first_of_[key[0] + 1]; ++k)
+      if (keys_[k] == key)
+        return k;
+    return keys_.size();
+  }
+
+private:
+  std::vector<std::array<local_id, 3>> keys_;
+  std::vector<std::uint32_t> first_of_;  ///< per vertex: of the keys whose lowest vertex it is
+  std::vector<std::uint8_t> has_vertex_; ///< whether some key has a vertex
+};
 
 /// Fixes the sides that the caller froze. Throws `mesh_error` when one is not there.
 inline void fix_frozen_sides(tet_complex& mesh, const frozen_entities<3>& frozen) {
-  const auto keys = frozen_keys(mesh, frozen);
-  std::vector<std::uint8_t> on_frozen_side(static_cast<std::size_t>(mesh.vertex_slots()), 0);
-  for (const auto& key : keys)
-    for (const local_id v : key)
-      on_frozen_side[v] = 1;
+  const frozen_sides sides(mesh, frozen);
+  const auto& keys = sides.keys();
   std::vector<bool> found(keys.size(), false);
-  const auto may_have_one = [&](const simplex<3>& v) { // spares most elements the search
-    return std::count_if(v.begin(), v.end(), [&](local_id i) { return on_frozen_side[i] != 0; }) > 2;
-  };
   for (local_id e = 0; e < mesh.element_slots(); ++e)
-    for (int side = may_have_one(mesh.vertices(e)) ? 0 : 4; side < 4; ++side) {
-      const auto key = sorted_side(mesh.vertices(e), side);
-      const auto at = std::lower_bound(keys.begin(), keys.end(), key);
-      if (at != keys.end() && *at == key) {
-        found[at - keys.begin()] = true;
+    for (int side = sides.may_have_one(mesh.vertices(e)) ? 0 : 4; side < 4; ++side)
+      if (const std::size_t k = sides.find(sorted_side(mesh.vertices(e), side)); k < keys.size()) {
+        found[k] = true;
         mesh.fix_side(e, side);
       }
-    }
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (!found[k])
       refuse_frozen_side(
