@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,7 +48,7 @@ dovetail::fill_options how_to_fill(const filling_options& options) {
     how.growth = *options.growth;
     if (!(how.growth >= 1e-3 && how.growth <= 1000))
       throw command_line_error("--growth: " + number_text(how.growth) +
-                               " is not a growth; give a positive number");
+                               " is not a growth; give a number from 0.001 to 1000");
   }
   for (const std::string& text : options.voids)
     how.marks.push_back({point_of_text(text, "--void"), no_id});
@@ -57,24 +58,25 @@ dovetail::fill_options how_to_fill(const filling_options& options) {
 /// A material gets the name of the triangles that have it behind them, where these have one and no other
 /// material has it.
 void name_materials(const surface_file& given, const filled_surface& made, io::loaded_mesh& whole) {
-  for (const filled_region& region : made.regions) {
-    std::optional<local_id> group;
-    bool is_one = true;
-    for (std::size_t t = 0; t < made.materials_beside.size() && is_one; ++t)
-      if (made.materials_beside[t][0] == region.material) {
-        is_one = !group || *group == given.surface.tags[t];
-        group = given.surface.tags[t];
-      }
-    for (const auto& [tag, name] : given.names)
-      if (is_one && group == tag)
-        whole.material_names.emplace_back(region.material, name);
-  }
-  std::vector<std::string> names;
-  for (const auto& [material, name] : whole.material_names)
-    names.push_back(name);
-  std::sort(names.begin(), names.end());
-  if (std::adjacent_find(names.begin(), names.end()) != names.end())
-    whole.material_names.clear();
+  struct group_behind {
+    local_id tag;
+    bool is_one;
+  };
+  std::map<local_id, group_behind> groups; // of triangles, by material
+  for (std::size_t t = 0; t < made.materials_beside.size(); ++t)
+    if (const local_id material = made.materials_beside[t][0]; material != no_id) {
+      const local_id tag = given.surface.tags[t];
+      group_behind& group = groups.try_emplace(material, group_behind{tag, true}).first->second;
+      group.is_one = group.is_one && group.tag == tag;
+    }
+  const std::map<local_id, std::string> names(given.names.begin(), given.names.end());
+  std::map<std::string, int> uses;
+  for (const auto& [material, group] : groups)
+    if (const auto named = names.find(group.tag); group.is_one && named != names.end()) {
+      whole.material_names.emplace_back(material, named->second);
+      ++uses[named->second];
+    }
+  std::erase_if(whole.material_names, [&](const auto& named) { return uses[named.second] > 1; });
 }
 
 io::loaded_mesh whole_mesh(surface_file given, filled_surface made) {

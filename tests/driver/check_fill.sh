@@ -57,6 +57,15 @@ for name in '2 1 "shell"' '2 2 "hole"' '2 3 "core"' '3 2 "core"'; do
   grep -qa "^$name" "$inputs/mesh.msh" || fault "the group $name is not there"
 done
 
+# A name that two materials would have is none's; others keep theirs.
+{ solid shell "0 0 0" "4 4 4" out && solid twin "5 0 0" "6 1 1" out && solid twin "7 0 0" "8 1 1" out &&
+  solid last "9 0 0" "10 1 1" out; } >"$inputs/twins.stl"
+expect_success fill "$inputs/twins.stl" -o mesh.msh
+grep -qa '^3 [0-9]* "twin"' "$sandbox/work/mesh.msh" && fault "two materials have one name"
+for name in shell last; do
+  grep -qa "^3 [0-9]* \"$name\"" "$sandbox/work/mesh.msh" || fault "the material $name has lost its name"
+done
+
 # Its own output is a surface too: the same triangles, whose mesh has nothing of the tetrahedra.
 expect_success fill "$inputs/mesh.msh" -o again.vtu --void=2.75,2.75,2.75 --quiet
 grep -q "only its triangles are used" "$sandbox/stderr" || fault "the tetrahedra are not mentioned"

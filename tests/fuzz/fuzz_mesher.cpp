@@ -14,13 +14,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::byte_source bytes(data, size);
   const unsigned kind = bytes.byte();
   auto boundary = fuzz::closed_boundary(kind);
+  const auto vertex = [&] { return static_cast<local_id>(bytes.byte() % boundary.points.size()); };
   while (!bytes.empty()) {
     const std::size_t what = bytes.byte();
     if (what == 255) { // a triangle more, in one direction
-      const local_id a = bytes.byte(), b = bytes.byte(), c = bytes.byte();
+      const local_id a = vertex(), b = vertex(), c = vertex();
       boundary.elements.push_back({a, b, c});
     } else if (what == 254) { // a wall, in both
-      const local_id a = bytes.byte(), b = bytes.byte(), c = bytes.byte();
+      const local_id a = vertex(), b = vertex(), c = vertex();
       boundary.elements.push_back({a, b, c});
       boundary.elements.push_back({a, c, b});
     } else {

@@ -2,6 +2,7 @@
 #include "dovetail/mesher/native/boundary_points.hpp"
 #include "dovetail/mesher/native/boundary_recovery.hpp"
 #include "dovetail/mesher/native/inside_elements.hpp"
+#include "dovetail/mesher/native/interior_points.hpp"
 #include "dovetail/triangulation/delaunay.hpp"
 #include "mesher/random_pieces.hpp"
 #include "mesher/shapes.hpp"
@@ -72,6 +73,7 @@ TEST_CASE("diagonals of squares are turned by flips") {
   for (const auto& boundary : {shapes::cube(5), shapes::cube(4, 1e-3, {1e3, -1e3, 500})}) {
     const auto piece = recover_and_check(boundary);
     CHECK(piece.counts.missing_edges > 0);
+    CHECK(piece.counts.splits == 0);
   }
 }
 
@@ -144,15 +146,27 @@ TEST_CASE("a cavity is divided by a triangle that an edge pierces, or left as it
 TEST_CASE("what cannot be recovered is named: a triangle through another, a point on an edge or a triangle") {
   auto crossing = shapes::cube(2);
   shapes::append(crossing, shapes::cube(2, 0.8, {0.31, 0.17, -0.43}));
-  auto touching = shapes::cube(1);
-  touching.points.push_back({0.5, 0.5, 1}); // on the diagonal of a side, used by a void
-  const auto tip = static_cast<local_id>(touching.points.size()) - 1;
-  for (const vec3 p : {vec3{0.2, 0.2, 0.3}, vec3{0.2, 0.6, 0.3}, vec3{0.6, 0.2, 0.3}})
-    touching.points.push_back(p);
-  for (const simplex<2>& t : {simplex<2>{tip, tip + 1, tip + 2}, simplex<2>{tip, tip + 2, tip + 3},
-                              simplex<2>{tip, tip + 3, tip + 1}, simplex<2>{tip + 1, tip + 3, tip + 2}})
-    touching.elements.push_back(t);
-  for (const auto& boundary : {crossing, touching}) {
+  const auto with_void_at = [](vec3 tip_at) { // a void whose tip is on a side of the cube
+    auto touching = shapes::cube(1);
+    touching.points.push_back(tip_at);
+    const auto tip = static_cast<local_id>(touching.points.size()) - 1;
+    for (const vec3 p : {vec3{0.2, 0.2, 0.3}, vec3{0.2, 0.6, 0.3}, vec3{0.6, 0.2, 0.3}})
+      touching.points.push_back(p);
+    for (const simplex<2>& t : {simplex<2>{tip, tip + 1, tip + 2}, simplex<2>{tip, tip + 2, tip + 3},
+                                simplex<2>{tip, tip + 3, tip + 1}, simplex<2>{tip + 1, tip + 3, tip + 2}})
+      touching.elements.push_back(t);
+    return touching;
+  };
+  // On the diagonal of the side, and in a triangle of it.
+  const auto in_a_triangle = with_void_at({0.3, 0.45, 1});
+  {
+    auto points = in_a_triangle.points;
+    detail::append_far_corners(points);
+    auto made = triangulate_points<3>(points);
+    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, in_a_triangle.elements),
+                         doctest::Contains("which passes through point (0.3, 0.45, 1)"), mesher_error);
+  }
+  for (const auto& boundary : {crossing, with_void_at({0.5, 0.5, 1})}) {
     auto points = boundary.points;
     detail::append_far_corners(points);
     auto made = triangulate_points<3>(points);
@@ -185,7 +199,16 @@ TEST_CASE("pieces that the first attempts fail at are filled by later ones") {
     CAPTURE(family);
     CAPTURE(seed);
     const auto piece = random_pieces::make(static_cast<std::size_t>(family), static_cast<unsigned>(seed));
-    const auto result = mesher::native{}({piece.boundary, 0}, [&](vec3) { return piece.size; });
+    const any_sizing size = [&](vec3) { return piece.size; };
+    auto points = piece.boundary.points;
+    append(points, interior_points(piece.boundary, size));
+    detail::append_far_corners(points);
+    detail::local_changes changes(triangulate_points<3>(points).triangulation);
+    const auto lacking =
+        detail::missing_triangles(changes.mesh(), detail::kept_entities(piece.boundary.elements));
+    CHECK_THROWS_AS(detail::boundary_recovery(changes, piece.boundary.elements, {}).run(lacking),
+                    mesher_error);
+    const auto result = mesher::native{}({piece.boundary, 0}, size);
     CHECK(random_pieces::fault_of(piece.boundary, result.mesh) == "");
     CHECK(result.summary.get("recovery_operations") < 80'000'000);
   }

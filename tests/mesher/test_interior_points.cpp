@@ -2,6 +2,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/mesher/native/interior_points.hpp"
+#include "dovetail/mesher/native/straight_lattice.hpp"
 #include "dovetail/mesher/shells.hpp"
 #include "dovetail/sizing/graded.hpp"
 #include "dovetail/sizing/sources.hpp"
@@ -203,8 +204,7 @@ TEST_CASE("The order of triangles and their corners does not matter") {
   std::reverse(other.elements.begin(), other.elements.end());
   for (auto& t : other.elements)
     std::rotate(t.begin(), t.begin() + 1, t.end());
-  CHECK(interior_points(other, size_around_void).size() ==
-        interior_points(boundary, size_around_void).size());
+  CHECK(interior_points(other, size_around_void) == interior_points(boundary, size_around_void));
   CHECK(interior_points(other, uniform(0.11)) == interior_points(boundary, uniform(0.11)));
 }
 
@@ -287,6 +287,17 @@ TEST_CASE("Sizes that ask for too many points are refused before they are made")
   CHECK_THROWS_AS(interior_points(shapes::sphere(2), uniform(0.05), {.most_points = 100}), mesher_error);
 }
 
+TEST_CASE("As many points as are allowed are made, and not one more") {
+  const auto cube = shapes::cube(10);
+  for (const any_sizing& size : {uniform(0.045), any_sizing([](vec3 p) { return 0.045 + 0.001 * p.x; })}) {
+    const auto points = interior_points(cube, size);
+    const auto count = static_cast<double>(points.size());
+    CHECK(interior_points(cube, size, {.most_points = count}) == points);
+    CHECK_THROWS_WITH_AS(interior_points(cube, size, {.most_points = count - 1}),
+                         doctest::Contains("points inside; make them larger"), mesher_error);
+  }
+}
+
 TEST_CASE("Boundaries that enclose nothing are refused") {
   auto open = shapes::sphere(2);
   open.elements.pop_back();
@@ -328,6 +339,46 @@ TEST_CASE("On a uniform field the lattice is straight and fits the faces of a bo
                                                  [axis](vec3 p, vec3 q) { return p[axis] < q[axis]; });
     CHECK(std::abs((*low)[axis] - (1 - (*high)[axis])) < 0.01 * h);
     CHECK((*low)[axis] < 0.61 * h);
+  }
+}
+
+TEST_CASE("Each place of a straight lattice is in one of the boxes that fill a larger one") {
+  for (int n = 2; n < 60; ++n)
+    for (const double width : {1.0, 0.7, 0.3 * n, 1.0 / 3, 1e-3}) {
+      // Places are exactly on the faces between boxes, but for rounding one way or the other.
+      const double lower = -width, step = 2 * width / n;
+      const vec3 origin{lower, lower, lower}, steps{step, step, step};
+      const double inner = std::min(2.0, 0.5 * n) * step;
+      for (const double face : {lower + step * (n / 2), std::nextafter(lower + step * (n / 2), 2 * width),
+                                std::nextafter(lower + step * (n / 2), -2 * width), lower + inner}) {
+        std::vector<vec3> found;
+        const auto collect = [&](vec3 p) { found.push_back(p); };
+        detail::for_each_lattice_place({origin, {width, width, lower + inner}}, origin, steps, collect);
+        const std::size_t in_all = found.size();
+        found.clear();
+        detail::for_each_lattice_place({origin, {face, width, lower + inner}}, origin, steps, collect);
+        detail::for_each_lattice_place({{face, lower, lower}, {width, width, lower + inner}}, origin, steps,
+                                       collect);
+        CHECK(found.size() == in_all);
+      }
+    }
+}
+
+TEST_CASE("No plane of a straight lattice is doubled or left out") {
+  const auto cube = shapes::cube(4, 2, {-1, -1, -1});
+  for (int k = 0; k < 60; ++k) {
+    const double h = 0.256 + 0.02 * k / 60;
+    CAPTURE(h);
+    const auto points = interior_points(cube, uniform(h));
+    CHECK(least_spacing(points, uniform(h)) > 0.8);
+    std::vector<double> heights;
+    for (const vec3 p : points)
+      heights.push_back(p.z);
+    std::sort(heights.begin(), heights.end());
+    double largest_gap = 0;
+    for (std::size_t i = 1; i < heights.size(); ++i)
+      largest_gap = std::max(largest_gap, heights[i] - heights[i - 1]);
+    CHECK(largest_gap < 0.6 * h); // planes are half a cell apart
   }
 }
 

@@ -4,6 +4,7 @@
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/fill.hpp"
+#include "dovetail/sizing/sources.hpp"
 #include "mesher/shapes.hpp"
 
 #include <doctest/doctest.h>
@@ -135,6 +136,14 @@ TEST_CASE("a needle that a rough prediction misses is refused before it is meshe
                        doctest::Contains("the sizes predict"), sizing_error);
 }
 
+TEST_CASE("a small source between the samples of a rough prediction is refused before it is meshed") {
+  fill_options options;
+  options.largest_prediction = 100'000;
+  const source_field size(0.3, {point_source({0.51, 0.52, 0.48}, 1e-4, 0.02, 1e-4)});
+  CHECK_THROWS_WITH_AS(fill(shapes::cube(4), size, options, failing{}),
+                       doctest::Contains("the sizes predict"), sizing_error);
+}
+
 TEST_CASE("a cube is filled in sizes of its own, the same by any executor") {
   const surface cube = shapes::cube(6);
   const auto made = fill(cube);
@@ -249,6 +258,8 @@ TEST_CASE("marks name materials and voids") {
   CHECK(named.regions[1].volume == doctest::Approx(0.125));
   options.marks = {{{2, 0, 0}, 0}};
   check_refused<geometry_error>(s, "outside of the surface", options);
+  options.marks = {{{0.5, 0.5, 0.5}, -2}};
+  check_refused<geometry_error>(s, "the material -2 of the point", options);
   options.marks = {{{0.4, 0.5, 0.5}, 0}, {{0.5, 0.5, 0.5}, 1}};
   check_refused<geometry_error>(s, "say different things", options);
   options.marks = {{{0.5, 0.5, 0.5}, no_id}, {{0.1, 0.1, 0.1}, no_id}};

@@ -37,7 +37,7 @@ inline double measure(const std::array<vec3, 4>& p) {
 }
 
 /// The number of living ghosts, after checking: neighbours are mutual and share the side's vertices in
-/// opposite directions, one ghost vertex per ghost, elements positive, ghosts convex at their ridges.
+/// opposite directions, one ghost vertex per ghost, elements positive.
 template <int D>
 std::size_t check_structure(const triangulation<D>& t) {
   using mesh = triangulation<D>;

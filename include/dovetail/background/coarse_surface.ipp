@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 
 namespace dovetail::background {
@@ -132,8 +133,9 @@ private:
         refine_face(f, halved);
         again = true;
       }
-    if (!again && separate_repeated_triangles(halved) && last_round)
-      fail(0);
+    if (!again)
+      if (const auto repeated = separate_repeated_triangles(halved); repeated && last_round)
+        fail(*repeated);
     if (halved.empty())
       return again;
     halve_intervals(curves_, std::move(halved));
@@ -170,8 +172,9 @@ private:
   }
 
   /// Halves the curves of faces with a triangle between three points of curves that another one has as well;
-  /// false when there is none.
-  bool separate_repeated_triangles(intervals& halved) const {
+  /// the first such face.
+  std::optional<std::size_t> separate_repeated_triangles(intervals& halved) const {
+    std::optional<std::size_t> first;
     std::set<simplex<2>> triangles;
     for (std::size_t f = 0; f < face_count(); ++f) {
       const auto& labels = regions_[f].boundary.labels;
@@ -181,11 +184,14 @@ private:
           continue;
         for (local_id& v : triangle)
           v = labels[v];
-        if (!triangles.insert(sorted_vertices(triangle)).second)
+        if (!triangles.insert(sorted_vertices(triangle)).second) {
           append(halved, origins_[f]);
+          if (!first)
+            first = f;
+        }
       }
     }
-    return !halved.empty();
+    return first;
   }
 
   std::string name_of(std::size_t f) const {

@@ -206,12 +206,14 @@ public:
   /// By how much the cut grows when super-elements of one part go to another.
   double cut_added_by(std::span<const local_id> supers, local_id to) const {
     const local_id from = part_of(supers[0]);
+    std::vector<local_id> moved(supers.begin(), supers.end());
+    sort_all(moved);
     double added = 0;
     for (const local_id s : supers) {
       const auto row = graph_.row(s);
       const std::size_t begin = graph_.offsets[s];
       for (std::size_t k = 0; k < row.size(); ++k) {
-        if (std::find(supers.begin(), supers.end(), row[k]) != supers.end())
+        if (std::binary_search(moved.begin(), moved.end(), row[k]))
           continue;
         const local_id other = part_of(row[k]);
         const double weight = graph_.edge_weights[begin + k];

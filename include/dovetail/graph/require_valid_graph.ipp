@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/scattered.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/graph/require_valid_graph.hpp"
 #include "dovetail/mesh/chain_sum.hpp"
@@ -107,7 +108,16 @@ DOVETAIL_INLINE void require_valid_graph(const csr_graph& graph) {
                            "; weights must be finite and not negative");
   const auto nodes = static_cast<local_id>(graph.node_weights.size());
   chain_sum ways; // nothing when every edge is passed in both directions
-  double rising = 0, falling = 0;
+  double rising = 0, falling = 0, counted = 0;
+  // Each edge counts by a factor of its own, so that weights which are wrong in two edges do not make up for
+  // each other.
+  const auto factor_of = [](local_id v, local_id w) {
+    const auto [low, high] = std::minmax(v, w);
+    return 1 + std::ldexp(static_cast<double>(detail::scattered(static_cast<std::uint64_t>(low) << 32U |
+                                                                static_cast<std::uint64_t>(high)) >>
+                                              11U),
+                          -53);
+  };
   detail::for_each_arc(graph, [&](local_id v, local_id w, double weight) {
     if (w < 0 || w >= nodes)
       detail::refuse_graph("node " + std::to_string(v) + " has the neighbour " + std::to_string(w) +
@@ -119,9 +129,10 @@ DOVETAIL_INLINE void require_valid_graph(const csr_graph& graph) {
                            " has weight " + std::to_string(weight) +
                            "; weights must be finite and not negative");
     ways.add(std::array{v, w});
-    (v < w ? rising : falling) += weight;
+    (v < w ? rising : falling) += factor_of(v, w) * weight;
+    counted += weight;
   });
-  if (!(ways == chain_sum{}) || std::abs(rising - falling) > 1e-9 * (rising + falling))
+  if (!(ways == chain_sum{}) || std::abs(rising - falling) > 1e-9 * counted)
     detail::throw_one_way(graph);
 }
 

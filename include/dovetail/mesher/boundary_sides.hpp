@@ -13,7 +13,7 @@
 namespace dovetail {
 
 /// Lookup of oriented triangles. A triangle may be listed in both directions (an inner interface): an element
-/// then belongs to each. Construction is linear, a lookup takes constant time (the triangles at one vertex).
+/// then belongs to each. Construction takes n log m for n triangles, m of them at one vertex, a lookup log m.
 class boundary_sides {
 public:
   /// One triangle as a set of three vertices.
@@ -48,13 +48,11 @@ private:
   /// One more than the largest vertex.
   static std::size_t count_points(std::span<const simplex<2>> triangles);
 
-  void insert(const simplex<2>& triangle, local_id index, std::vector<std::size_t>& used);
+  /// Adds the next triangle of the last bucket.
+  void append_to_bucket(const simplex<2>& triangle, local_id index);
 
-  /// Closes the gaps that triangles listed in both directions left.
-  void pack(const std::vector<std::size_t>& used);
-
-  std::vector<std::size_t> bucket_begins_;
-  std::vector<entry> entries_;
+  std::vector<std::size_t> bucket_begins_; ///< per vertex: of the entries whose lowest it is
+  std::vector<entry> entries_;             ///< in a bucket by their other vertices
 };
 
 } // namespace dovetail

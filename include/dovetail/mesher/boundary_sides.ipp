@@ -2,8 +2,10 @@
 /// What `boundary_sides.hpp` declares.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
 
@@ -11,33 +13,45 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
 
 DOVETAIL_INLINE boundary_sides::boundary_sides(std::span<const simplex<2>> triangles) {
   const std::size_t point_count = count_points(triangles);
-  bucket_begins_.assign(point_count + 1, 0);
-  for (const auto& triangle : triangles)
-    ++bucket_begins_[static_cast<std::size_t>(sorted_vertices(triangle)[0]) + 1];
-  for (std::size_t v = 0; v < point_count; ++v)
-    bucket_begins_[v + 1] += bucket_begins_[v];
-  entries_.resize(triangles.size());
-  std::vector<std::size_t> used(point_count, 0);
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    insert(triangles[t], static_cast<local_id>(t), used);
-  pack(used);
+  auto by_lowest = sorted_into_rows<local_id>(point_count, [&](const auto& put) {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      put(static_cast<std::size_t>(sorted_vertices(triangles[t])[0]), static_cast<local_id>(t));
+  });
+  entries_.reserve(triangles.size());
+  bucket_begins_.reserve(point_count + 1);
+  for (std::size_t v = 0; v < point_count; ++v) {
+    bucket_begins_.push_back(entries_.size());
+    const auto key_of = [&](local_id t) { return sorted_vertices(triangles[t]); };
+    sort_all(by_lowest[v], [&](local_id s, local_id t) {
+      const auto key_of_s = key_of(s), key_of_t = key_of(t);
+      return key_of_s != key_of_t ? key_of_s < key_of_t : s < t;
+    });
+    for (const local_id t : by_lowest[v])
+      append_to_bucket(triangles[t], t);
+  }
+  bucket_begins_.push_back(entries_.size());
 }
 
 DOVETAIL_INLINE boundary_sides::match boundary_sides::find(const simplex<2>& side) const {
   const auto key = sorted_vertices(side);
   if (static_cast<std::size_t>(key[2]) + 1 >= bucket_begins_.size())
     return {};
-  const auto bucket = static_cast<std::size_t>(key[0]);
-  for (std::size_t k = bucket_begins_[bucket]; k < bucket_begins_[bucket + 1]; ++k)
-    if (entries_[k].middle == key[1] && entries_[k].highest == key[2])
-      return {static_cast<local_id>(k), parity(side)};
-  return {};
+  const auto begin = entries_.begin() + static_cast<std::ptrdiff_t>(bucket_begins_[key[0]]),
+             end = entries_.begin() + static_cast<std::ptrdiff_t>(bucket_begins_[key[0] + 1]);
+  const auto at = std::lower_bound(begin, end, std::pair(key[1], key[2]),
+                                   [](const entry& one, const std::pair<local_id, local_id>& wanted) {
+                                     return std::pair(one.middle, one.highest) < wanted;
+                                   });
+  if (at == end || at->middle != key[1] || at->highest != key[2])
+    return {};
+  return {static_cast<local_id>(at - entries_.begin()), parity(side)};
 }
 
 DOVETAIL_INLINE std::size_t boundary_sides::count_points(std::span<const simplex<2>> triangles) {
@@ -51,35 +65,17 @@ DOVETAIL_INLINE std::size_t boundary_sides::count_points(std::span<const simplex
   return count;
 }
 
-DOVETAIL_INLINE void boundary_sides::insert(const simplex<2>& triangle, local_id index,
-                                            std::vector<std::size_t>& used) {
+DOVETAIL_INLINE void boundary_sides::append_to_bucket(const simplex<2>& triangle, local_id index) {
   const auto key = sorted_vertices(triangle);
-  const auto bucket = static_cast<std::size_t>(key[0]);
-  const std::size_t begin = bucket_begins_[bucket];
-  std::size_t k = begin;
-  while (k < begin + used[bucket] && (entries_[k].middle != key[1] || entries_[k].highest != key[2]))
-    ++k;
-  if (k == begin + used[bucket]) {
-    entries_[k] = {key[1], key[2], {no_id, no_id}};
-    ++used[bucket];
-  }
-  local_id& slot = entries_[k].listed[parity(triangle)];
+  const bool is_new = entries_.size() == bucket_begins_.back() || entries_.back().middle != key[1] ||
+                      entries_.back().highest != key[2];
+  if (is_new)
+    entries_.push_back({key[1], key[2], {no_id, no_id}});
+  local_id& slot = entries_.back().listed[parity(triangle)];
   if (slot != no_id)
     throw mesher_error("boundary triangles " + std::to_string(slot) + " and " + std::to_string(index) +
                        " are the same triangle in the same direction; remove one");
   slot = index;
-}
-
-DOVETAIL_INLINE void boundary_sides::pack(const std::vector<std::size_t>& used) {
-  std::size_t end = 0;
-  for (std::size_t v = 0; v < used.size(); ++v) {
-    const std::size_t begin = bucket_begins_[v];
-    bucket_begins_[v] = end;
-    for (std::size_t k = begin; k < begin + used[v]; ++k)
-      entries_[end++] = entries_[k];
-  }
-  bucket_begins_.back() = end;
-  entries_.resize(end);
 }
 
 } // namespace dovetail

@@ -14,7 +14,8 @@ namespace dovetail {
 
 /// What triangles enclose. Every edge has two triangles or more and no two triangles cross: these say so, for
 /// two sides of triangles that face each other across an edge are sides of the same region, and what hangs
-/// together so is a shell. All tests are exact.
+/// together so is a shell. All tests are exact but the sign of a shell's volume, which is a rounded sum: what
+/// is thinner than some 1e-15 of its extent may be taken for the outside.
 class enclosed_regions {
 public:
   /// O(n log n). Throws `geometry_error` for an edge of a single triangle, and for triangles that lie upon

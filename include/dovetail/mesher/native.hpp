@@ -32,7 +32,7 @@ struct native {
   /// Elements made per unit of the integral of h^-3.
   static constexpr double elements_per_inverse_cubed_size = 9.8;
 
-  double size_scale = 1.0; ///< multiplies the field
+  double size_scale = 1.0; ///< multiplies the field, and what it says of its least sizes
 
   /// Meshes the inside of `input.boundary`. Throws `mesher_error` when a part of the boundary could not be
   /// recovered, which it names; `sizing_error` when the field gives an unusable size.

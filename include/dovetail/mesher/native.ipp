@@ -10,6 +10,8 @@
 #include "dovetail/mesher/native/boundary_recovery.hpp"
 #include "dovetail/mesher/native/inside_elements.hpp"
 #include "dovetail/mesher/native/interior_points.hpp"
+#include "dovetail/sizing/compose.hpp"
+#include "dovetail/sizing/erased.hpp"
 #include "dovetail/triangulation/delaunay.hpp"
 
 #include <cstddef>
@@ -22,9 +24,15 @@ DOVETAIL_INLINE mesher_result<3> native::operator()(const mesher_input<3>& input
                                                     const any_sizing& size) const {
   const stopwatch clock;
   require_enclosing(input.boundary);
-  const any_sizing scaled = [&](vec3 p) { return size_scale * size(p); };
+  if (const auto used = detail::used_points(input.boundary); used.size() < input.boundary.points.size()) {
+    auto result = (*this)({detail::without_unused_points(input.boundary, used), input.material}, size);
+    detail::restore_unused_points(result.mesh, input.boundary.points, used);
+    result.summary.set(mesher_counts{result.mesh.elements.size(), result.mesh.points.size()});
+    return result;
+  }
+  const any_sizing sizes = size_scale == 1 ? size : keep_bounds(scaled<any_sizing>(size, size_scale));
   std::vector<vec3> points = input.boundary.points;
-  append(points, interior_points(input.boundary, scaled));
+  append(points, interior_points(input.boundary, sizes));
   detail::append_far_corners(points);
 
   auto made = triangulate_points<3>(span_of(std::as_const(points)));

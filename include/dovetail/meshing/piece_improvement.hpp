@@ -61,8 +61,13 @@ report improve_without_chords(simplicial_mesh<2>& mesh, const mesher_input<2>& i
     else if (attempt < most_attempts) {
       freeze_around(chords, mesh, frozen);
       continue;
-    } else
-      result.warnings.push_back("a piece stays as meshed: improved, it would touch a neighbour");
+    } else { // what was counted is of a mesh that is not taken
+      report given_up;
+      given_up.name = result.name;
+      given_up.seconds = result.seconds;
+      given_up.warnings = {"a piece stays as meshed: improved, it would touch a neighbour"};
+      return given_up;
+    }
     return result;
   }
 }

@@ -16,8 +16,8 @@ namespace dovetail {
 /// `csr_graph`, so a model that takes `const csr_graph&` takes them all.
 ///
 /// Semantics: every part is non-empty when the graph has at least `parts` nodes; the heaviest part weighs
-/// at most `imbalance` times the average, or the heaviest node allows no better; deterministic for the
-/// model's seed.
+/// at most `imbalance` times the average, or as much as the average and the heaviest node together;
+/// deterministic for the model's seed.
 ///
 /// Complexity: at most n log n in the nodes and edges, times log(parts) by bisection.
 ///

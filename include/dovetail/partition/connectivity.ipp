@@ -7,6 +7,7 @@
 #include "dovetail/graph/contraction.hpp"
 #include "dovetail/partition/connectivity.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <span>
@@ -18,8 +19,6 @@ DOVETAIL_INLINE std::size_t join_stray_components(const csr_graph& graph, std::s
                                                   int parts) {
   const labelled_components found = components_within(graph, part);
   const auto count = static_cast<std::size_t>(found.count);
-  if (found.count == parts)
-    return 0;
   std::vector<double> weight(count, 0.0);
   std::vector<local_id> part_of(count, no_id);
   for (std::size_t v = 0; v < part.size(); ++v) {
@@ -32,6 +31,8 @@ DOVETAIL_INLINE std::size_t join_stray_components(const csr_graph& graph, std::s
     if (best == count || weight[c] > weight[best])
       best = c;
   }
+  if (std::count(main.begin(), main.end(), count) + found.count == parts)
+    return 0; // each part that has nodes is one component
   std::vector<std::size_t> strays;
   for (std::size_t c = 0; c < count; ++c)
     if (main[part_of[c]] != c)
@@ -44,7 +45,7 @@ DOVETAIL_INLINE std::size_t join_stray_components(const csr_graph& graph, std::s
   std::iota(into.begin(), into.end(), std::size_t{0});
   const auto resolve = [&](std::size_t c) {
     while (into[c] != c)
-      c = into[c];
+      c = into[c] = into[into[c]];
     return c;
   };
   std::vector<std::vector<std::size_t>> members(count);

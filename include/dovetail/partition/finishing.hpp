@@ -10,6 +10,7 @@ namespace dovetail::detail {
 
 /// Throws `partition_error` for an imbalance that no partition has.
 void require_imbalance(double imbalance);
+void require_coarse_nodes(int per_part);
 
 /// The weight that no part may exceed: the limit asked for, or what the heaviest node leaves possible.
 double allowed_part_weight(const csr_graph& graph, int parts, double imbalance);

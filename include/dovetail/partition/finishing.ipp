@@ -26,6 +26,12 @@ DOVETAIL_INLINE void require_imbalance(double imbalance) {
                           "; it is the heaviest part over the average part, so give 1 or more");
 }
 
+DOVETAIL_INLINE void require_coarse_nodes(int per_part) {
+  if (per_part < 2)
+    throw partition_error("coarsening is to stop at " + std::to_string(per_part) +
+                          " nodes per part, with which a part may get none; give 2 or more");
+}
+
 DOVETAIL_INLINE double allowed_part_weight(const csr_graph& graph, int parts, double imbalance) {
   const auto& weights = graph.node_weights;
   const double average = std::accumulate(weights.begin(), weights.end(), 0.0) / parts;

@@ -34,18 +34,22 @@ public:
         continue;
       }
       double& connection = connection_[p];
-      if (connection == 0)
+      if (connection == unseen) {
         touched_.push_back(p);
+        connection = 0;
+      }
       connection += weight;
     }
     for (const local_id p : touched_) {
       double& connection = connection_[p];
       consider(p, connection - inside);
-      connection = 0;
+      connection = unseen;
     }
   }
 
 private:
+  static constexpr double unseen = -1; ///< an edge may weigh nothing
+
   const csr_graph& graph_;
   std::span<const local_id> part_;
   std::vector<double> connection_; ///< scratch, per part: weight of the edges to it from the node at hand

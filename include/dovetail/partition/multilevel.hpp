@@ -30,11 +30,13 @@ std::vector<coarsened_graph> coarsened_levels(const csr_graph& graph, int parts,
                                               const multilevel_options& options);
 
 /// The partition that `partition_small(small graph, parts)` begins, refined by single moves on every level.
-/// About n log n besides. Keeps the promises of a `graph_partitioner`.
+/// About n log n besides. Keeps the promises of a `graph_partitioner`. Throws `partition_error` for fewer
+/// than two coarse nodes per part, with which a part may get none.
 template <class Partition>
 std::vector<local_id> partition_by_levels(const csr_graph& graph, int parts,
                                           const multilevel_options& options,
                                           const Partition& partition_small) {
+  detail::require_coarse_nodes(options.coarse_nodes_per_part);
   const std::vector<coarsened_graph> levels = coarsened_levels(graph, parts, options);
   const auto refine = [&](const csr_graph& level, std::vector<local_id>& part) {
     detail::fill_empty_parts(level, part, parts);

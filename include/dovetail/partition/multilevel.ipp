@@ -24,7 +24,7 @@ DOVETAIL_INLINE std::vector<coarsened_graph> coarsened_levels(const csr_graph& g
       break;
     coarsened_graph coarser =
         match_heavy_edges(finer, 1.5 * total / static_cast<double>(target), options.seed + levels.size());
-    if (coarser.graph.node_count() > finer.node_count() * 19 / 20)
+    if (coarser.graph.node_count() > std::int64_t{finer.node_count()} * 19 / 20)
       break; // nothing left to match
     levels.push_back(std::move(coarser));
   }

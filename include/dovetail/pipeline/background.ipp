@@ -132,7 +132,7 @@ DOVETAIL_INLINE background::coarse_surface_result surface_without_crossings_by(
       most_pairs = 10.0 * static_cast<double>(mesh.elements.size()) + 1000;
       most_late = 2 * count + 1000;
     }
-    if (count > 0 && (round == refinement_rounds || count > most_pairs || (round > 2 && count > most_late)))
+    if (count > 0 && (round >= refinement_rounds || count > most_pairs || (round > 2 && count > most_late)))
       throw_crossing_faces(model.topology(),
                            {mesh.tags[pairs.front().first], mesh.tags[pairs.front().second]});
     return places_to_refine(mesh, pairs, ++round > rounds_at_crossings);

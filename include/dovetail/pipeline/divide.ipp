@@ -62,7 +62,6 @@ divided_background<D> divide_here(const simplicial_background<D>& coarse, const 
   divided_background<D> result;
   options.on_progress("simplification", 0, 0);
   const stopwatch simplification_clock;
-  require_background(coarse, sides);
   result.weights = predict_elements<D>(coarse.elements(), size, {}, estimates).per_element;
   contraction_bound bound = options.super_elements;
   bound.subdomains = subdomains;
@@ -92,9 +91,10 @@ template <int D, bound_parameters<D> Parameters>
 divided_background<D> divide(const simplicial_background<D>& coarse, const any_sizing& size, int subdomains,
                              const Parameters& given) {
   const stopwatch clock;
+  side_table<D> sides = build_sides(coarse.elements());
+  detail::require_background(coarse, sides);
   const auto estimates =
       detail::integrate_in_tasks<D>(coarse.elements(), size, given.run_tasks, given.options.on_progress);
-  side_table<D> sides = build_sides(coarse.elements());
   const double seconds_before = clock.seconds();
   auto result = given.run_tasks.once(
       [&] { return detail::divide_here<D>(coarse, sides, size, estimates, subdomains, given); });

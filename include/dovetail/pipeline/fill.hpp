@@ -112,10 +112,10 @@ filled_surface fill_by(const M& mesh_it, const I& improve, const simplicial_mesh
 /// That is only so where all outer triangles are oriented outwards: else orientations mean nothing, all
 /// regions are filled, and a warning says so. Marks decide in any case.
 ///
-/// About linear in the elements. The result depends on neither orientation nor executor. Throws
-/// `geometry_error` for a surface that cannot be filled or a mark outside of it, naming places;
-/// `mesher_error` for a region that no attempt could mesh; `sizing_error` also where far too many elements
-/// are predicted; `cancelled`.
+/// About linear in the elements. The result does not depend on the executor, nor on which way inner walls are
+/// oriented. Throws `geometry_error` for a surface that cannot be filled, and for a mark that is outside of
+/// it or has a negative material, naming places; `mesher_error` for a region that no attempt could mesh;
+/// `sizing_error` also where far too many elements are predicted; `cancelled`.
 /// \param surface the triangles; indices of points from 0
 /// \param size edge lengths wanted, in the units of the points
 /// \param options growth of sizes, marks of regions, executor, largest prediction

@@ -64,6 +64,9 @@ inline void apply_marks(const enclosed_regions& regions, const std::vector<regio
                         fill_plan& plan) {
   std::vector<const region_mark*> mark_of(plan.material.size(), nullptr);
   for (const region_mark& mark : marks) {
+    if (mark.material < 0 && mark.material != no_id)
+      throw geometry_error("the material " + std::to_string(mark.material) + " of the point " +
+                           place_text(mark.place) + " is negative; give 0 or more, or no_id for a void");
     const local_id region = is_finite(mark.place) ? regions.at(mark.place) : no_id;
     if (region == no_id)
       throw geometry_error("the point " + place_text(mark.place) +
@@ -147,7 +150,7 @@ inline piece_input<3> boundary_of_region(std::span<const std::size_t> sides,
   return input;
 }
 
-/// What the sizes ask for in the whole box, by few samples.
+/// What the sizes ask for in the whole box, by few samples and by the least sizes that the field tells.
 struct box_prediction {
   double elements = 0;
   double least_density = 1e300; ///< elements per volume where sizes are largest
@@ -163,10 +166,14 @@ inline box_prediction predict_in_box(const simplicial_mesh<2>& surface, const an
   for (int x = 0; x < across; ++x)
     for (int y = 0; y < across; ++y)
       for (int z = 0; z < across; ++z) {
-        const double density = sizing::density_at<3>(
-            checked_size(size, box.lower + vec3{(x + 0.5) * step.x, (y + 0.5) * step.y, (z + 0.5) * step.z}));
-        result.elements += density * step.x * step.y * step.z;
-        result.least_density = std::min(result.least_density, density);
+        box3 cell;
+        cell.include(box.lower + vec3{x * step.x, y * step.y, z * step.z});
+        cell.include(box.lower + vec3{(x + 1) * step.x, (y + 1) * step.y, (z + 1) * step.z});
+        const double sampled = sizing::density_at<3>(checked_size(size, cell.center()));
+        const double least_size = smallest_size_in(size, cell);
+        const double most = least_size > 0 ? std::max(sampled, sizing::density_at<3>(least_size)) : sampled;
+        result.elements += most * step.x * step.y * step.z;
+        result.least_density = std::min(result.least_density, sampled);
       }
   return result;
 }

@@ -44,7 +44,7 @@ inline repair repair_of_surfaces(const suppression_plan& plan, const decompositi
   const bool can_be_fewer = static_cast<std::size_t>(state.merges.subdomains()) > least_subdomains;
   if (!plan.folds.empty() && can_be_fewer && state.refinements >= rounds_before_others(refinement_rounds))
     return {.too_many_merges = plan.folds}; // whole faces may not fold
-  if (state.refinements == refinement_rounds)
+  if (state.refinements >= refinement_rounds)
     throw_crossing_faces(topology, plan.surface_crossings.front().cad_faces);
   return {.smaller_sizes = balls_around(plan.surface_crossings)};
 }

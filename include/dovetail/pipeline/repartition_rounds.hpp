@@ -45,10 +45,10 @@ public:
         break;
       ++rounds_;
       made = realize();
-      if (crosses(made)) {
+      if (crosses(made)) { // the same places would only ask for the same moves again
         subdomain_of_element = before;
         made = realize();
-        continue;
+        break;
       }
       moved_ += moved;
       places = small_angles(made);

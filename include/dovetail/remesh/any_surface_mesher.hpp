@@ -23,7 +23,8 @@ public:
   template <class M>
     requires(!std::same_as<M, any_surface_mesher> && surface_mesher<M>)
   any_surface_mesher(M policy, std::string name = {}) // NOLINT: converts, as std::function does
-      : name_(std::move(name)), runs_in_threads_(is_thread_safe<M>()), call_(std::move(policy)) {}
+      : name_(std::move(name)), runs_in_threads_(dovetail::may_run_in_threads(policy)),
+        call_(std::move(policy)) {}
 
   /// The name it was given, for reports; may be empty.
   const std::string& name() const { return name_; }

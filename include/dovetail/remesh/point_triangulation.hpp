@@ -87,11 +87,8 @@ private:
     for (std::size_t i = 0; i < count; ++i)
       same_as[i] = static_cast<local_id>(i);
     add_enclosing_triangle();
-    for (const local_id v : order)
+    for (const local_id v : order) // of equal points, which are at one place of the curve, the lowest first
       insert(v);
-    // The first of a group of equal points was whichever came first along the curve; name it by lowest index.
-    for (local_id v = 0; v < static_cast<local_id>(count); ++v)
-      rename_to_lowest(v);
   }
 
   /// Adds a triangle that holds all points far from its sides. Its vertices are ordinary points: the domain
@@ -152,20 +149,6 @@ private:
     }
     restore_delaunay(legalise_);
     last_ = corner_table::triangle_of(table.corner_of[v]);
-  }
-
-  void rename_to_lowest(local_id v) {
-    const local_id group = same_as[v];
-    if (group <= v)
-      return;
-    // v is the lowest index of its group, as indices are visited upwards: it takes over the group's corners.
-    const local_id first = table.corner_of[group];
-    table.for_each_corner(group, [&](local_id c) { table.vertex[c] = v; });
-    table.corner_of[v] = first;
-    table.corner_of[group] = no_id;
-    for (local_id w = v; w < enclosing_; ++w)
-      if (same_as[w] == group)
-        same_as[w] = v;
   }
 
   std::vector<vec2> points_; // the given points, then the enclosing triangle's

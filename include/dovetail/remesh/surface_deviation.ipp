@@ -47,12 +47,14 @@ DOVETAIL_INLINE void warn_of_deviations(report& to, const report& deviation) {
     const auto away = [&](double distance) {
       return "the mesh is as far as " + number_text(distance, 2) + " of its local size from " + face.name;
     };
-    if (found.cut_off > 0 && cut++ < named)
-      to.warnings.push_back(away(found.cut_off) +
-                            ": it cuts off an edge inside that face, or a rounding far smaller than its "
-                            "elements; give smaller sizes there, or divide the face along the edge");
-    else if (found.centres > far_distance && far++ < named)
+    if (found.cut_off > 0) {
+      if (cut++ < named)
+        to.warnings.push_back(away(found.cut_off) +
+                              ": it cuts off an edge inside that face, or a rounding far smaller than its "
+                              "elements; give smaller sizes there, or divide the face along the edge");
+    } else if (found.centres > far_distance && far++ < named) {
       to.warnings.push_back(away(found.centres) + ", which no size explains; look at the mesh there");
+    }
   }
   if (cut > named || far > named)
     to.warnings.push_back("so are the meshes of " +

@@ -205,7 +205,7 @@ struct integral_estimate {
 };
 
 /// The elements first, first + 1, ... last - 1 of a mesh, before any is split: what `predict_elements` begins
-/// with, so that several can share the work. O(n * cost of h).
+/// with, so that several can share the work. O(n * cost of h) and once all points.
 /// \param first the first element
 /// \param last one behind the last element
 template <int D, sizing_field H>

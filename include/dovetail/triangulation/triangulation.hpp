@@ -2,10 +2,13 @@
 /// A triangulation of the whole plane or space: elements and their neighbours in one flat array.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/triangulation/space.hpp"
 
 #include <array>
 #include <cstddef>
+#include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -75,13 +78,17 @@ struct triangulation {
     (*this)[element_of(side)].across[place_of(side)] = other;
     (*this)[element_of(other)].across[place_of(other)] = side;
   }
-  /// A place for a new element, whose content is undefined.
+  /// A place for a new element, whose content is undefined. Throws `geometry_error` when there are so many
+  /// that their sides have no numbers.
   local_id add() {
     if (!dead.empty()) {
       const local_id e = dead.back();
       dead.pop_back();
       return e;
     }
+    if (cells.size() >= most_cells)
+      throw geometry_error("a triangulation of more than " + std::to_string(most_cells) +
+                           " elements; divide the points among several");
     cells.emplace_back();
     return static_cast<local_id>(cells.size()) - 1;
   }
@@ -93,6 +100,8 @@ struct triangulation {
 
 private:
   static constexpr local_id dead_mark = -2;
+  static constexpr std::size_t most_cells =
+      static_cast<std::size_t>(std::numeric_limits<local_id>::max() / corners);
 };
 
 } // namespace dovetail

@@ -96,9 +96,9 @@ public:
 private:
   static constexpr std::uint32_t empty = ~std::uint32_t{0};
   static std::size_t slot_of(const filed_side& side) {
-    const std::uint32_t mixed = static_cast<std::uint32_t>(side.middle) * 0x9e3779b9U +
-                                static_cast<std::uint32_t>(side.largest) * 0x85ebca6bU;
-    return mixed >> 16U;
+    const auto both =
+        static_cast<std::uint64_t>(side.middle) << 32U | static_cast<std::uint64_t>(side.largest);
+    return both * 0x9e3779b97f4a7c15U >> 32U;
   }
   std::vector<std::uint32_t> table_;
 };

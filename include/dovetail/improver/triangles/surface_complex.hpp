@@ -6,6 +6,7 @@
 #include "dovetail/improver/surface_host.hpp"
 #include "dovetail/mesh/corner_table.hpp"
 #include "dovetail/mesh/triangle_shape.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <algorithm>
@@ -187,7 +188,7 @@ public:
     if (const auto where = put_down(v, middle)) {
       place(v, *where);
       if (positive(p, a, v) && positive(b, p, v) && positive(q, b, v) && positive(a, q, v)) {
-        size[v] = field != nullptr && *field ? (*field)(where->point) : 0.5 * (size[a] + size[b]);
+        size[v] = field != nullptr && *field ? checked_size(*field, where->point) : 0.5 * (size[a] + size[b]);
         return v;
       }
     }
@@ -306,5 +307,14 @@ private:
 
   std::vector<local_id> ring_;
 };
+
+/// Whether so many triangles are at a vertex that an operation on all of them costs more than it may bring:
+/// the tip of a fan of thousands would be tried again by each of them.
+inline bool has_large_star(const surface_complex& mesh, local_id v) {
+  constexpr int most_triangles = 96;
+  int count = 0;
+  mesh.table.for_each_corner(v, [&](local_id) { ++count; });
+  return count > most_triangles;
+}
 
 } // namespace dovetail::improvement

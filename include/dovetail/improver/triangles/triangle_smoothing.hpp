@@ -22,7 +22,7 @@ public:
             const recorded_tries& tries) {
     bool helped = false;
     for (local_id c = 3 * t; c < 3 * t + 3 && limits.is_poor(mesh, t); ++c)
-      if (const local_id v = mesh.table.vertex[c]; mesh.inner(v))
+      if (const local_id v = mesh.table.vertex[c]; mesh.inner(v) && !has_large_star(mesh, v))
         helped = tries([&] { return smooth_.maximise_worst(v, limits.target); }) || helped;
     return helped;
   }

@@ -28,6 +28,8 @@ public:
   }
   /// When that makes the worst triangle around v better by a step and no edge too long.
   bool improve(surface_complex& mesh, local_id v, const operation_limits<2>& limits) {
+    if (has_large_star(mesh, v))
+      return false;
     double longest = limits.longest_edge;
     mesh.table.for_each_corner(
         v, [&](local_id c) { longest = std::max(longest, mesh.relative_length(v, mesh.table.tail(c))); });

@@ -131,9 +131,13 @@ private:
   template <class Target>
   void divide_all(std::vector<Target>& missing, std::vector<edge_target>& edges) {
     std::vector<Target> stuck;
-    for (const Target& target : missing) {
-      if (changes_.is_spent())
+    for (std::size_t k = 0; k < missing.size(); ++k) {
+      const Target& target = missing[k];
+      if (changes_.is_spent()) {
+        missing.erase(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(k));
+        append(missing, stuck);
         give_up_for_work(missing);
+      }
       if (target.is_there(changes_))
         continue;
       find_obstacles(changes_, target, found_);

@@ -4,6 +4,8 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/mesher/native/kept_entities.hpp"
 #include "dovetail/mesher/native/recovery_flips.hpp"
 #include "dovetail/mesher/native/star_points.hpp"
 #include "dovetail/triangulation/local_changes.hpp"
@@ -46,57 +48,49 @@ public:
   }
 
 private:
-  using edge = std::array<local_id, 2>;
-  static edge sorted(local_id u, local_id v) { return {std::min(u, v), std::max(u, v)}; }
-
-  /// Finds the sides of the region, oriented outwards, and tells whether those inside may go.
   void find_rim() {
-    const auto& mesh = changes_.mesh();
-    std::vector<local_id> inside(elements_.begin(), elements_.end());
-    sort_all(inside);
-    for (const local_id e : elements_)
-      for (std::size_t i = 0; i < 4; ++i) {
-        simplex<2> side{};
-        for (std::size_t k = 0; k < 3; ++k)
-          side[k] = mesh[e].vertices[numbering::sides<3>[i][k]];
-        const local_id beyond = triangulation<3>::element_of(mesh[e].across[i]);
-        if (!std::binary_search(inside.begin(), inside.end(), beyond))
-          rim_.push_back(side);
-        else if (side[0] >= 0 && side[1] >= 0 && side[2] >= 0)
-          loses_kept_ = loses_kept_ || kept_.has(side[0], side[1], side[2]);
-      }
-    for (const auto& side : rim_)
+    changes_.find_rim(elements_, rim_);
+    for (const auto& side : rim_) {
+      rim_triangles_.push_back(sorted_vertices(side));
       for (std::size_t k = 0; k < 3; ++k) {
-        rim_edges_.push_back(sorted(side[k], side[(k + 1) % 3]));
+        rim_edges_.push_back(sorted_pair(side[k], side[(k + 1) % 3]));
         rim_vertices_.push_back(side[k]);
       }
+    }
+    sort_all(rim_triangles_);
     sort_unique(rim_edges_);
     sort_unique(rim_vertices_);
   }
+  template <class Entity>
+  static bool is_among(const std::vector<Entity>& sorted, const Entity& one) {
+    return std::binary_search(sorted.begin(), sorted.end(), one);
+  }
   /// No vertex, kept edge or kept triangle is inside the region.
   bool keeps_all() const {
-    if (loses_kept_)
-      return false;
-    for (const local_id e : elements_)
+    for (const local_id e : elements_) {
       for (const auto& ridge : numbering::ridges<3>) {
         const local_id u = changes_.mesh()[e].vertices[ridge[0]], v = changes_.mesh()[e].vertices[ridge[1]];
-        if (u < 0 || v < 0 || !std::binary_search(rim_vertices_.begin(), rim_vertices_.end(), u) ||
-            !std::binary_search(rim_vertices_.begin(), rim_vertices_.end(), v))
-          return false;
-        if (kept_.has(u, v) && !std::binary_search(rim_edges_.begin(), rim_edges_.end(), sorted(u, v)))
+        if (u < 0 || v < 0 || !is_among(rim_vertices_, u) || !is_among(rim_vertices_, v) ||
+            (kept_.has(u, v) && !is_among(rim_edges_, sorted_pair(u, v))))
           return false;
       }
+      for (std::size_t i = 0; i < 4; ++i)
+        if (const auto side = changes_.side_vertices(e, i);
+            kept_.has(side[0], side[1], side[2]) && !is_among(rim_triangles_, sorted_vertices(side)))
+          return false;
+    }
     return true;
   }
-  bool is_cut_edge(const edge& e) const {
-    return e == sorted(cut_[0], cut_[1]) || e == sorted(cut_[1], cut_[2]) || e == sorted(cut_[2], cut_[0]);
+  bool is_cut_edge(const vertex_pair& e) const {
+    return e == sorted_pair(cut_[0], cut_[1]) || e == sorted_pair(cut_[1], cut_[2]) ||
+           e == sorted_pair(cut_[2], cut_[0]);
   }
   /// Sorts the sides into the two parts, closed by the triangle.
   bool divide() {
-    std::vector<std::pair<edge, local_id>> by_edge;
+    std::vector<std::pair<vertex_pair, local_id>> by_edge;
     for (std::size_t s = 0; s < rim_.size(); ++s)
       for (std::size_t k = 0; k < 3; ++k)
-        if (const edge e = sorted(rim_[s][k], rim_[s][(k + 1) % 3]); !is_cut_edge(e))
+        if (const vertex_pair e = sorted_pair(rim_[s][k], rim_[s][(k + 1) % 3]); !is_cut_edge(e))
           by_edge.push_back({e, static_cast<local_id>(s)});
     sort_all(by_edge);
     disjoint_sets sets(rim_.size());
@@ -129,11 +123,10 @@ private:
   const kept_entities& kept_;
   simplex<2> cut_;
   std::span<const local_id> elements_;
-  std::vector<simplex<2>> rim_;
-  std::vector<edge> rim_edges_;
+  std::vector<simplex<2>> rim_, rim_triangles_; // oriented outwards; their vertices in growing order
+  std::vector<vertex_pair> rim_edges_;
   std::vector<local_id> rim_vertices_;
   std::array<std::vector<simplex<2>>, 2> parts_;
-  bool loses_kept_ = false;
 };
 
 } // namespace dovetail::detail

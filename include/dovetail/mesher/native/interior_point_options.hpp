@@ -20,7 +20,8 @@ struct interior_point_options {
   /// How far places of the lattice are moved, each its own way: Delaunay's test is exact, and slow for points
   /// that are on one sphere.
   double jitter = 1e-3;
-  double most_points = 1e8; ///< more are refused with a `mesher_error`
+  /// More are refused with a `mesher_error`. Of six elements each, so many are as many as have numbers.
+  double most_points = 8e7;
 };
 
 } // namespace dovetail

@@ -2,6 +2,7 @@
 /// The edges and triangles that recovery makes part of a tetrahedrization and that no change may take away.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/boundary_sides.hpp"
@@ -37,10 +38,13 @@ public:
       }
     for (const auto& edge : edges_)
       vertices_ = std::max(vertices_, edge[1] + 1);
+    triangles_at_ = sorted_into_rows<local_id>(static_cast<std::size_t>(vertices_), [&](const auto& put) {
+      for (std::size_t t = 0; t < triangles_.size(); ++t)
+        for (const local_id v : triangles_[t])
+          put(static_cast<std::size_t>(v), static_cast<local_id>(t));
+    });
   }
 
-  /// Of the boundary, in growing order.
-  const std::vector<vertex_pair>& edges() const { return edges_; }
   /// Of the boundary, each once.
   const std::vector<simplex<2>>& triangles() const { return triangles_; }
   const boundary_sides& sides() const { return sides_; }
@@ -63,7 +67,13 @@ public:
   }
 
   void set_edge(local_id u, local_id v, bool kept) { changed_edges_[sorted_pair(u, v)] = kept; }
-  void set_triangle(const simplex<2>& t, bool kept) { changed_triangles_[sorted_vertices(t)] = {t, kept}; }
+  void set_triangle(const simplex<2>& t, bool kept) {
+    const auto key = sorted_vertices(t);
+    changed_triangles_[key] = {t, kept};
+    if (kept)
+      for (const auto& local : numbering::sides<2>)
+        changed_at_[sorted_pair(t[local[0]], t[local[1]])].push_back(key);
+  }
 
   /// Calls `f` with each triangle that is kept and none of the boundary's.
   template <class F>
@@ -72,18 +82,21 @@ public:
       if (changed.kept && !sides_.find(changed.triangle))
         f(changed.triangle);
   }
-  /// Those kept at an edge that is kept. Linear in the triangles.
+  /// Those kept at an edge that is kept. Linear in the triangles at one of its ends and those that were ever
+  /// kept at it.
   std::vector<simplex<2>> triangles_at(local_id u, local_id v) const {
     std::vector<simplex<2>> result;
-    const auto has_vertex = [](const simplex<2>& t, local_id w) {
-      return t[0] == w || t[1] == w || t[2] == w;
-    };
-    const auto take = [&](const simplex<2>& t) {
-      if (has_vertex(t, u) && has_vertex(t, v) && has(t[0], t[1], t[2]))
-        result.push_back(t);
-    };
-    std::for_each(triangles_.begin(), triangles_.end(), take);
-    for_each_new_triangle(take);
+    if (const local_id end = std::min(u, v); is_of_boundary(end))
+      for (const local_id t : triangles_at_[end])
+        if (has_edge(triangles_[t], u, v) && has(triangles_[t][0], triangles_[t][1], triangles_[t][2]))
+          result.push_back(triangles_[t]);
+    if (const auto found = changed_at_.find(sorted_pair(u, v)); found != changed_at_.end()) {
+      auto keys = found->second;
+      sort_unique(keys);
+      for (const auto& key : keys)
+        if (const changed_triangle& changed = changed_triangles_.at(key); changed.kept && !sides_.find(key))
+          result.push_back(changed.triangle);
+    }
     return result;
   }
 
@@ -92,12 +105,19 @@ private:
     simplex<2> triangle;
     bool kept;
   };
+  static bool has_edge(const simplex<2>& t, local_id u, local_id v) {
+    const auto has_vertex = [&](local_id w) { return t[0] == w || t[1] == w || t[2] == w; };
+    return has_vertex(u) && has_vertex(v);
+  }
+
   boundary_sides sides_;
   std::vector<vertex_pair> edges_;
   std::vector<simplex<2>> triangles_;
   local_id vertices_ = 0;
   std::map<vertex_pair, bool> changed_edges_; // whether they are kept now
   std::map<simplex<2>, changed_triangle> changed_triangles_;
+  compressed_rows<local_id> triangles_at_;                    // per vertex of the boundary
+  std::map<vertex_pair, std::vector<simplex<2>>> changed_at_; // keys of those that were kept at an edge
 };
 
 } // namespace dovetail::detail

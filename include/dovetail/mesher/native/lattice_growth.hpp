@@ -219,6 +219,8 @@ private:
   }
 
   void add(const spot& at, std::uint8_t settled = 0) {
+    if (static_cast<double>(points_.size()) >= options_.most_points)
+      throw_too_many_points(options_.most_points);
     const auto id = static_cast<std::uint32_t>(points_.size());
     points_.push_back({at.place, at.size, static_cast<std::uint32_t>(at.leaf), settled});
     grid_.add(at.leaf, at.place);

@@ -24,6 +24,11 @@
 
 namespace dovetail::detail {
 
+[[noreturn]] inline void throw_too_many_points(double most_points) {
+  throw mesher_error("the sizes ask for more than " + number_text(most_points) +
+                     " points inside; make them larger");
+}
+
 /// Cubes about as wide as one to two sizes where the piece is, large ones elsewhere. O((n + m) log n) for n
 /// leaves and m triangles; a field is asked about once for each leaf and once for each triangle. Built once,
 /// then const and thread-safe.
@@ -130,9 +135,9 @@ private:
     while (!open.empty()) {
       for (open_node& one : open)
         measure(one, size, sizes);
-      refine(std::move(open), size, sizes, options.most_points);
+      refine(std::move(open), size, sizes, options);
       limit_growth(sizes, options.steepest);
-      open = leaves_too_wide();
+      open = leaves_too_wide(options.cell);
     }
     reaches_ = {};
     seeds_ = {};
@@ -140,20 +145,23 @@ private:
   }
 
   /// Level by level, so that the number of points can be foreseen before the next one is made.
-  void refine(std::vector<open_node> level, const any_sizing& size, corner_sizes& sizes, double most_points) {
+  void refine(std::vector<open_node> level, const any_sizing& size, corner_sizes& sizes,
+              const interior_point_options& options) {
     while (!level.empty()) {
       std::vector<open_node> next;
-      double points = 0;
+      double points = points_in_kept_;
       for (open_node& one : level) {
-        points += points_in(one.node);
-        if (!(points < most_points) ||
-            static_cast<double>(tree_.node_count()) > nodes_per_point * most_points)
-          throw mesher_error("the sizes ask for more than " + number_text(most_points) +
-                             " points inside; make them larger");
-        if (is_too_wide(one.node))
+        const double points_here = points_in(one.node, options.cell);
+        points += points_here;
+        if (!(points < options.most_points) ||
+            static_cast<double>(tree_.node_count()) > nodes_per_point * options.most_points)
+          throw_too_many_points(options.most_points);
+        if (is_too_wide(one.node)) {
           split(one, next);
-        else
+        } else {
           keep(one);
+          points_in_kept_ += points_here;
+        }
       }
       for (const open_node& one : next)
         measure(one, size, sizes);
@@ -212,13 +220,18 @@ private:
     at.lower = tree_.box(leaf).lower;
     at.per_width = 1 / width_of(leaf);
   }
-  std::vector<open_node> leaves_too_wide() const {
+  std::vector<open_node> leaves_too_wide(double lattice_cell) {
     std::vector<open_node> found;
-    for (std::size_t n = 0; n < tree_.leaf_count(); ++n)
-      if (const std::size_t leaf = tree_.leaf(n); cells_[leaf].place != place::outside && is_too_wide(leaf))
+    points_in_kept_ = 0;
+    for (std::size_t n = 0; n < tree_.leaf_count(); ++n) {
+      const std::size_t leaf = tree_.leaf(n);
+      if (cells_[leaf].place != place::outside && is_too_wide(leaf))
         found.push_back({leaf,
                          {near_.begin() + static_cast<std::ptrdiff_t>(cells_[leaf].first),
                           near_.begin() + static_cast<std::ptrdiff_t>(cells_[leaf].end)}});
+      else
+        points_in_kept_ += points_in(leaf, lattice_cell);
+    }
     return found;
   }
 
@@ -233,10 +246,11 @@ private:
     return width_of(node) > widest_leaf * least &&
            inflated(inside_.bounds(), far_from_box * least).overlaps(tree_.box(node));
   }
-  /// A lower estimate of the points that a node will hold.
-  double points_in(std::size_t node) const {
-    const double sizes_across = width_of(node) / greatest_size(node);
-    return cells_[node].place == place::inside ? sizes_across * sizes_across * sizes_across : 0.0;
+  /// A lower estimate of the points that a node will hold: two per cell of the lattice, which is
+  /// `lattice_cell` sizes wide.
+  double points_in(std::size_t node, double lattice_cell) const {
+    const double across = width_of(node) / (lattice_cell * greatest_size(node));
+    return cells_[node].place == place::inside ? 2 * across * across * across : 0.0;
   }
 
   vec3 corner(std::size_t node, std::uint32_t k) const {
@@ -296,6 +310,7 @@ private:
   std::vector<cell> cells_;                           ///< per node of the octree
   std::vector<std::array<std::uint32_t, 8>> corners_; ///< of each node, while building
   std::vector<local_id> near_;
+  double points_in_kept_ = 0; ///< foreseen in the leaves that are narrow enough, while building
 };
 
 } // namespace dovetail::detail

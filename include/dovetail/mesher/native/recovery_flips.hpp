@@ -31,9 +31,7 @@ public:
     const local_id e = triangulation<3>::element_of(side), n = triangulation<3>::element_of(other);
     const std::size_t place = triangulation<3>::place_of(side);
     const local_id x = mesh[e].vertices[place], y = mesh[n].vertices[triangulation<3>::place_of(other)];
-    simplex<2> s{};
-    for (std::size_t k = 0; k < 3; ++k)
-      s[k] = mesh[e].vertices[numbering::sides<3>[place][k]];
+    const simplex<2> s = changes_.side_vertices(e, place);
     if (x < 0 || y < 0 || kept_.has(s[0], s[1], s[2]))
       return false;
     fresh_.clear();

@@ -130,7 +130,7 @@ private:
     sort_unique(candidates);
     bool any = false;
     for (const local_id e : candidates) {
-      if (region_.size() == most_elements || changes_.is_spent())
+      if (region_.size() >= most_elements || changes_.is_spent())
         return any;
       any = take_in(e, closing) || any;
     }

@@ -14,10 +14,18 @@
 namespace dovetail::detail {
 
 /// Calls `visit(place)` for the places origin + (i, j, k) step, i, j and k all even or all odd, that lie in
-/// [box.lower, box.upper).
+/// [box.lower, box.upper): of boxes that fill a larger one each place is in one, whatever rounding does.
 template <class Visit>
 void for_each_lattice_place(const box3& box, vec3 origin, vec3 step, Visit&& visit) {
-  const auto first = [&](int axis) { return std::ceil((box.lower[axis] - origin[axis]) / step[axis]); };
+  const auto first = [&](int axis) {
+    const auto is_below = [&](double i) { return origin[axis] + step[axis] * i < box.lower[axis]; };
+    double i = std::ceil((box.lower[axis] - origin[axis]) / step[axis]);
+    while (!is_below(i - 1))
+      --i;
+    while (is_below(i))
+      ++i;
+    return i;
+  };
   const auto from = [](double least, bool odd) {
     return least + ((std::fmod(least, 2) != 0) != odd ? 1 : 0);
   };
@@ -61,8 +69,11 @@ inline std::vector<vec3> straight_lattice(const piece_octree& piece, const inter
     };
     for_each_lattice_place(tree.box(leaf), within.lower, step, [&](vec3 place) {
       const vec3 p = place + jitter * scattered_vector(places++);
-      if (piece.is_clear(leaf, p, clearance) && (shares_clear_space(p) || piece.is_inside(leaf, p)))
-        points.push_back(p);
+      if (!piece.is_clear(leaf, p, clearance) || !(shares_clear_space(p) || piece.is_inside(leaf, p)))
+        return;
+      if (static_cast<double>(points.size()) >= options.most_points)
+        throw_too_many_points(options.most_points);
+      points.push_back(p);
     });
   }
   return points;
