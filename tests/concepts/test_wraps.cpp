@@ -163,6 +163,10 @@ static_assert(surface_mesher<noted<remesh::patch_remesher>> &&
 TEST_CASE("a wrapped surface mesher behind one type runs in threads where the held one does") {
   CHECK_FALSE(may_run_in_threads(noted<any_surface_mesher>{any_surface_mesher(unsafe_surface_mesher{})}));
   CHECK(may_run_in_threads(noted<any_surface_mesher>{any_surface_mesher(remesh::patch_remesher{})}));
+  CHECK(any_surface_mesher(noted<any_surface_mesher>{any_surface_mesher(remesh::patch_remesher{})})
+            .may_run_in_threads());
+  CHECK_FALSE(any_surface_mesher(noted<any_surface_mesher>{any_surface_mesher(unsafe_surface_mesher{})})
+                  .may_run_in_threads());
 }
 
 template <class R>

@@ -189,6 +189,10 @@ TEST_CASE("stray components join the neighbour of largest interface, and every p
   part = {0, 1, 0, 2};
   CHECK(join_stray_components(between, part, 3) == 1);
   CHECK(part == std::vector<local_id>{0, 1, 1, 2});
+  // As many components as parts, of which one is empty and another in two pieces.
+  part = {0, 1, 0, 0};
+  CHECK(join_stray_components(between, part, 3) == 1);
+  CHECK(components_within(between, part).count == 2);
 }
 
 TEST_CASE("scattered partitions become connected parts; defects that are left are listed exactly") {

@@ -6,6 +6,7 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/models/discrete/mesh_boundary.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/pipeline/divide.hpp"
 #include "dovetail/simplification/angles_of_rule.hpp"
 #include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
@@ -109,6 +110,20 @@ TEST_CASE("simplification, contraction, decomposition and angles refuse meshes o
 
 TEST_CASE("simplification, contraction, decomposition and angles refuse meshes of triangles that are none") {
   simplify_refuses<2>(dovetail_test::jittered_squares(6));
+}
+
+TEST_CASE("a background mesh is looked at before sizes are asked for its elements") {
+  const auto mesh = dovetail_test::cube(3);
+  const auto given = bind_parameters<3>(parameters<>{});
+  const any_sizing size = [](vec3 p) {
+    REQUIRE(std::isfinite(norm(p)));
+    return 0.1;
+  };
+  refuses_all<3>("divide", mesh.volume, [&](const auto& volume, const auto&) {
+    auto coarse = mesh;
+    coarse.volume = volume;
+    return divide<3>(coarse, size, 2, given);
+  });
 }
 
 TEST_CASE("the simplification of a solid looks at its surface and at its volume") {

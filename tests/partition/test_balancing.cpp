@@ -31,7 +31,7 @@ csr_graph random_graph(random_numbers& random, int nodes, bool ties) {
       edges.push_back({v - 1, v, 1 + weight(3)});
     for (int k = 0; k < 2; ++k)
       if (const auto w = static_cast<local_id>(random.bits() % static_cast<std::uint64_t>(nodes)); w != v)
-        edges.push_back({v, w, 1 + weight(3)});
+        edges.push_back({v, w, weight(3)}); // some weigh nothing
   }
   weights[0] = 1;
   return make_csr_graph(std::move(weights), edges);

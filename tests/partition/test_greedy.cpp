@@ -11,6 +11,18 @@ TEST_CASE("greedy with a looser limit keeps to it") {
   dovetail_test::check_partition(graph, loose(graph, 10), 10, 1.2);
 }
 
+TEST_CASE("fewer than two coarse nodes per part are refused: a part might get none") {
+  std::vector<weighted_edge> edges;
+  for (local_id v = 0; v < 6; ++v)
+    for (local_id w = v + 1; w < 6; ++w)
+      edges.push_back({v, w, 1});
+  const csr_graph complete = make_csr_graph(std::vector<double>(6, 1), edges);
+  for (const int nodes : {-1, 0, 1})
+    CHECK_THROWS_WITH_AS((partition::greedy{.coarse_nodes_per_part = nodes}(complete, 4)),
+                         doctest::Contains("give 2 or more"), partition_error);
+  dovetail_test::check_partition(complete, partition::greedy{.coarse_nodes_per_part = 2}(complete, 4), 4, 2);
+}
+
 TEST_CASE("refinement never makes the cut worse and finds the obvious move") {
   dovetail_test::random_numbers random(4);
   const csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(5), 2);

@@ -83,6 +83,17 @@ TEST_CASE("a graph that is none is refused by name, whoever is to partition it")
   }
 }
 
+TEST_CASE("weights that are wrong in two edges do not make up for each other") {
+  csr_graph path;
+  path.node_weights = {1, 1, 1};
+  path.offsets = {0, 1, 3, 4};
+  path.neighbours = {1, 0, 2, 1};
+  path.edge_weights = {1, 2, 2, 1};
+  CHECK_THROWS_WITH_AS(require_valid_graph(path), doctest::Contains("has another weight"), partition_error);
+  path.edge_weights = {1, 1, 2, 2};
+  require_valid_graph(path);
+}
+
 TEST_CASE("valid graphs pass: edges added up in another order, no edges, one node") {
   auto graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(3), 7);
   require_valid_graph(graph);

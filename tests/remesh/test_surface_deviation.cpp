@@ -142,4 +142,10 @@ TEST_CASE("faces that edges were cut off from are warned of, the first ones by n
   warn_of_deviations(told, noted);
   CHECK(told.warnings.size() == 7);
   CHECK(told.warnings.back() == "so are the meshes of 13 other faces");
+  report both, of_both; // cut off, and far in the middle of triangles: that is one thing to be told
+  for (int f = 0; f < 7; ++f)
+    note_deviation(both, "face " + std::to_string(f), {0, 1.5, 1.5, 0});
+  warn_of_deviations(of_both, both);
+  CHECK(of_both.warnings.size() == 6);
+  CHECK(of_both.warnings.back() == "so are the meshes of 2 other faces");
 }
