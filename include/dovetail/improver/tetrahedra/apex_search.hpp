@@ -19,6 +19,8 @@ struct apex_search_limits {
   int iterations = 6;   ///< linearisations at most
   float enough = 2;     ///< stop when the worst value is above this
   float radius = 0.25F; ///< first trust radius, in units of the star's length
+
+  bool operator==(const apex_search_limits&) const = default;
 };
 
 /// Searches the best position of a vertex by its star.

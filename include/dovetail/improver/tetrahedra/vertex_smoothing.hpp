@@ -5,6 +5,13 @@
 #include "dovetail/improver/tetrahedra/operation_limits.hpp"
 #include "dovetail/improver/tetrahedra/star_move.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace dovetail::improvement {
 
 /// The operation that moves the vertices of an element.
@@ -16,11 +23,16 @@ public:
 
   /// Moves the free vertices of `e` in turn as long as it is poor.
   bool mend(tet_complex& mesh, local_id e, const operation_limits<3>& limits, const recorded_tries& tries) {
+    forget_other_limits(limits);
     const auto corners = mesh.vertices(e);
     bool helped = false;
     for (const local_id v : corners)
-      if (mesh.is_free(v) && limits.is_poor(mesh, e))
-        helped = tries([&] { return improve(mesh, v, limits.search(), limits.band); }) || helped;
+      if (mesh.is_free(v) && limits.is_poor(mesh, e) && !has_failed(mesh, v)) {
+        if (tries([&] { return improve(mesh, v, limits.search(), limits.band); }))
+          helped = true;
+        else
+          failed_at_[v] = mesh.now();
+      }
     return helped;
   }
 
@@ -51,6 +63,21 @@ private:
     return mesh.vertex(e, 0) == v ? mesh.vertex(e, 1) : mesh.vertex(e, 0);
   }
 
+  /// Whether a vertex was tried in vain and nothing has changed around it since: it is tried for each poor
+  /// element that has it.
+  bool has_failed(const tet_complex& mesh, local_id v) {
+    if (static_cast<std::size_t>(v) >= failed_at_.size())
+      failed_at_.resize(static_cast<std::size_t>(mesh.vertex_slots()), 0);
+    return failed_at_[v] >= std::max(mesh.changed_at(v), std::uint32_t{1});
+  }
+  void forget_other_limits(const operation_limits<3>& limits) {
+    if (limits.search() != search_limits_)
+      failed_at_.clear();
+    search_limits_ = limits.search();
+  }
+
+  apex_search_limits search_limits_;
+  std::vector<std::uint32_t> failed_at_; ///< per vertex; 0: never
   star_move<Measure> star_;
   star_batch<Measure> batch_;
   apex_search<Measure> search_;
