@@ -291,7 +291,7 @@ private:
       const auto at = static_cast<std::size_t>(p);
       const auto quality = at < mesh_.quality.size() ? mesh_.quality[at] : measure_quality(piece.mesh);
       done.quality.merge(quality, numbers_.first_element[at]);
-      done.at_interfaces.merge(measure_at_interfaces(piece, mesh_.skeleton, sides_[p], &quality));
+      done.at_interfaces.merge(measure_at_interfaces(piece, mesh_.skeleton, sides_[p]));
       if constexpr (D == 3)
         if (quality.min_dihedrals.below(low_dihedral_deg) > 0)
           done.poor.merge(find_poor_elements(piece, mesh_.skeleton, sides_[p]));

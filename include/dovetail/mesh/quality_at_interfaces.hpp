@@ -52,38 +52,31 @@ struct quality_at_interfaces {
 /// Throws nothing but for a lack of memory.
 /// \param mesh the elements of one subdomain
 /// \param on_interface not 0 for points of an interface; one per point of the mesh
-/// \param of_all `measure_quality` of the mesh, where it is known: then mostly the rings alone are measured
 template <int D>
 quality_at_interfaces measure_at_interfaces(const simplicial_mesh<D>& mesh,
-                                            const std::vector<std::uint8_t>& on_interface,
-                                            const quality_statistics* of_all = nullptr);
+                                            const std::vector<std::uint8_t>& on_interface);
 
 /// Measures the elements of a piece. Linear, and n log n in its skeleton points.
 /// Throws nothing but for a lack of memory.
 /// \param piece as `check_piece` finds it right
 /// \param skeleton that of its mesh
 /// \param listed the numbers of the skeleton's sides at this piece: `io::sides_by_subdomain`
-/// \param of_all `measure_quality` of the piece, where it is known
 template <int D>
-quality_at_interfaces
-measure_at_interfaces(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
-                      std::span<const local_id> listed, const quality_statistics* of_all = nullptr);
+quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
+                                            const simplicial_skeleton<D>& skeleton,
+                                            std::span<const local_id> listed);
 
 #ifdef DOVETAIL_COMPILED
 extern template quality_at_interfaces measure_at_interfaces<2>(const simplicial_mesh<2>& mesh,
-                                                               const std::vector<std::uint8_t>& on_interface,
-                                                               const quality_statistics* of_all);
+                                                               const std::vector<std::uint8_t>& on_interface);
 extern template quality_at_interfaces measure_at_interfaces<3>(const simplicial_mesh<3>& mesh,
-                                                               const std::vector<std::uint8_t>& on_interface,
-                                                               const quality_statistics* of_all);
+                                                               const std::vector<std::uint8_t>& on_interface);
 extern template quality_at_interfaces measure_at_interfaces<2>(const simplicial_piece<2>& piece,
                                                                const simplicial_skeleton<2>& skeleton,
-                                                               std::span<const local_id> listed,
-                                                               const quality_statistics* of_all);
+                                                               std::span<const local_id> listed);
 extern template quality_at_interfaces measure_at_interfaces<3>(const simplicial_piece<3>& piece,
                                                                const simplicial_skeleton<3>& skeleton,
-                                                               std::span<const local_id> listed,
-                                                               const quality_statistics* of_all);
+                                                               std::span<const local_id> listed);
 #endif
 
 } // namespace dovetail

@@ -58,28 +58,11 @@ std::vector<std::uint8_t> points_on_interfaces(const simplicial_piece<D>& piece,
   return marked;
 }
 
-/// The rest is what the rings leave of all.
-inline void add_what_is_left(quality_at_interfaces& found, const quality_statistics& of_all,
-                             bool is_worst_in_rest) {
-  ring_quality& rest = found.rest;
-  rest.elements = of_all.elements - found.touching.elements - found.next_ring.elements;
-  if (rest.elements == 0)
-    return;
-  rest.sum_of_min_dihedral_deg = of_all.sum_of_min_dihedral_deg - found.touching.sum_of_min_dihedral_deg -
-                                 found.next_ring.sum_of_min_dihedral_deg;
-  for (std::size_t k = 0; k < rest.min_dihedrals.bins.size(); ++k)
-    rest.min_dihedrals.bins[k] = of_all.min_dihedrals.bins[k] - found.touching.min_dihedrals.bins[k] -
-                                 found.next_ring.min_dihedrals.bins[k];
-  if (is_worst_in_rest)
-    rest.min_dihedral_deg = of_all.min_dihedral_deg;
-}
-
 } // namespace detail
 
 template <int D>
 quality_at_interfaces measure_at_interfaces(const simplicial_mesh<D>& mesh,
-                                            const std::vector<std::uint8_t>& on_interface,
-                                            const quality_statistics* of_all) {
+                                            const std::vector<std::uint8_t>& on_interface) {
   const auto& elements = mesh.elements;
   const auto has_one_in = [](const simplex<D>& element, const std::vector<std::uint8_t>& marked) {
     return std::any_of(element.begin(), element.end(), [&](local_id v) { return marked[v] != 0; });
@@ -89,48 +72,34 @@ quality_at_interfaces measure_at_interfaces(const simplicial_mesh<D>& mesh,
     if (has_one_in(element, on_interface))
       for (const local_id v : element)
         reached[v] = 1;
-  const auto smallest_angle = [&](const simplex<D>& element) {
-    return extreme_dihedral_angles(corners(span_of(mesh.points), element))[0];
-  };
   quality_at_interfaces found;
-  const bool is_worst_in_rest = of_all != nullptr && of_all->worst_element >= 0 &&
-                                !has_one_in(elements[of_all->worst_element], reached);
-  for (const simplex<D>& element : elements)
-    if (has_one_in(element, on_interface))
-      found.touching.add(smallest_angle(element));
-    else if (has_one_in(element, reached))
-      found.next_ring.add(smallest_angle(element));
-    else if (of_all == nullptr)
-      found.rest.add(smallest_angle(element));
-    else if (!is_worst_in_rest)
-      found.rest.min_dihedral_deg = std::min(found.rest.min_dihedral_deg, smallest_angle(element));
-  if (of_all != nullptr)
-    detail::add_what_is_left(found, *of_all, is_worst_in_rest);
+  for (const simplex<D>& element : elements) {
+    ring_quality& ring = has_one_in(element, on_interface) ? found.touching
+                         : has_one_in(element, reached)    ? found.next_ring
+                                                           : found.rest;
+    ring.add(extreme_dihedral_angles(corners(span_of(mesh.points), element))[0]);
+  }
   return found;
 }
 
 template <int D>
-quality_at_interfaces
-measure_at_interfaces(const simplicial_piece<D>& piece, const simplicial_skeleton<D>& skeleton,
-                      std::span<const local_id> listed, const quality_statistics* of_all) {
-  return measure_at_interfaces<D>(piece.mesh, detail::points_on_interfaces(piece, skeleton, listed), of_all);
+quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
+                                            const simplicial_skeleton<D>& skeleton,
+                                            std::span<const local_id> listed) {
+  return measure_at_interfaces<D>(piece.mesh, detail::points_on_interfaces(piece, skeleton, listed));
 }
 
 #ifdef DOVETAIL_COMPILED
 template quality_at_interfaces measure_at_interfaces<2>(const simplicial_mesh<2>& mesh,
-                                                        const std::vector<std::uint8_t>& on_interface,
-                                                        const quality_statistics* of_all);
+                                                        const std::vector<std::uint8_t>& on_interface);
 template quality_at_interfaces measure_at_interfaces<3>(const simplicial_mesh<3>& mesh,
-                                                        const std::vector<std::uint8_t>& on_interface,
-                                                        const quality_statistics* of_all);
+                                                        const std::vector<std::uint8_t>& on_interface);
 template quality_at_interfaces measure_at_interfaces<2>(const simplicial_piece<2>& piece,
                                                         const simplicial_skeleton<2>& skeleton,
-                                                        std::span<const local_id> listed,
-                                                        const quality_statistics* of_all);
+                                                        std::span<const local_id> listed);
 template quality_at_interfaces measure_at_interfaces<3>(const simplicial_piece<3>& piece,
                                                         const simplicial_skeleton<3>& skeleton,
-                                                        std::span<const local_id> listed,
-                                                        const quality_statistics* of_all);
+                                                        std::span<const local_id> listed);
 #endif
 
 } // namespace dovetail

@@ -15,7 +15,7 @@ namespace dovetail {
 class move_gains {
 public:
   move_gains(const csr_graph& graph, std::span<const local_id> part, std::size_t parts)
-      : graph_(graph), part_(part), connection_(parts, 0.0) {}
+      : graph_(graph), part_(part), connection_(parts, unseen) {}
   move_gains(csr_graph&&, std::span<const local_id>, std::size_t) = delete; // it would be gone
 
   /// Calls `consider(part, gain)` for every part next to a node but its own. Linear in the node's edges.

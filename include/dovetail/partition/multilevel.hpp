@@ -36,7 +36,8 @@ template <class Partition>
 std::vector<local_id> partition_by_levels(const csr_graph& graph, int parts,
                                           const multilevel_options& options,
                                           const Partition& partition_small) {
-  detail::require_coarse_nodes(options.coarse_nodes_per_part);
+  if (parts > 1)
+    detail::require_coarse_nodes(options.coarse_nodes_per_part);
   const std::vector<coarsened_graph> levels = coarsened_levels(graph, parts, options);
   const auto refine = [&](const csr_graph& level, std::vector<local_id>& part) {
     detail::fill_empty_parts(level, part, parts);
