@@ -206,14 +206,22 @@ public:
   /// By how much the cut grows when super-elements of one part go to another.
   double cut_added_by(std::span<const local_id> supers, local_id to) const {
     const local_id from = part_of(supers[0]);
-    std::vector<local_id> moved(supers.begin(), supers.end());
-    sort_all(moved);
+    constexpr std::size_t few = 8;
+    std::vector<local_id> sorted; // of many; mostly it is one, for which nothing is allocated
+    if (supers.size() > few) {
+      sorted.assign(supers.begin(), supers.end());
+      sort_all(sorted);
+    }
+    const auto moves = [&](local_id s) {
+      return sorted.empty() ? std::find(supers.begin(), supers.end(), s) != supers.end()
+                            : std::binary_search(sorted.begin(), sorted.end(), s);
+    };
     double added = 0;
     for (const local_id s : supers) {
       const auto row = graph_.row(s);
       const std::size_t begin = graph_.offsets[s];
       for (std::size_t k = 0; k < row.size(); ++k) {
-        if (std::binary_search(moved.begin(), moved.end(), row[k]))
+        if (moves(row[k]))
           continue;
         const local_id other = part_of(row[k]);
         const double weight = graph_.edge_weights[begin + k];

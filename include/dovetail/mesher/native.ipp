@@ -24,6 +24,7 @@ DOVETAIL_INLINE mesher_result<3> native::operator()(const mesher_input<3>& input
                                                     const any_sizing& size) const {
   const stopwatch clock;
   require_enclosing(input.boundary);
+  // Whatever number recovery finds below the last of the boundary's counts as a part of that.
   if (const auto used = detail::used_points(input.boundary); used.size() < input.boundary.points.size()) {
     auto result = (*this)({detail::without_unused_points(input.boundary, used), input.material}, size);
     detail::restore_unused_points(result.mesh, input.boundary.points, used);
