@@ -256,7 +256,32 @@ TEST_CASE("a mesh is made once for the same region, and again for another") {
   CHECK(changed([](surface_region& r) { r.boundary.forbidden_edges = {{0, 2}}; }) == 1);
   CHECK(changed([](surface_region& r) { r.boundary.labels[3] = r.boundary.labels[2]; }) == 1);
   set.surface_keys = {key_maker{}(1.0).key(), {}};
-  CHECK(made_with(set) == 2);
+  CHECK(made_with(set) == 1); // the second one is on a face, as before
+}
+
+TEST_CASE("a mesh whose surface has a key is found by the outline of its region") {
+  auto store = empty_store();
+  const auto made_with = [&](bool outlines, double moved) {
+    listed_regions both = cushion();
+    both.surface_keys = {key_maker{}(1.0).key(), key_maker{}(2.0).key()};
+    both.regions[1].boundary.points[2].z = moved;
+    region_set set = both.set();
+    if (outlines)
+      set.outline_of = [listed = both.regions](std::size_t r) {
+        patch_boundary outline = listed[r].boundary;
+        outline.uv.clear();
+        return outline;
+      };
+    const std::size_t before = store.meshes.made();
+    const auto result =
+        mesh_regions(model, set, any_surface_mesher(careless{}), coarse, parallel::serial{}, store, {});
+    CHECK(result.failures.empty());
+    return store.meshes.made() - before;
+  };
+  CHECK(made_with(false, 0) == 3); // one of them again without the other one's diagonal
+  CHECK(made_with(true, 0) == 0);
+  CHECK(made_with(true, 0.5) == 2);
+  CHECK(made_with(false, 0.5) == 0);
 }
 
 TEST_CASE("chords are found again among meshes that were made before") {

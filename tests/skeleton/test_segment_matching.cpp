@@ -21,7 +21,7 @@ struct two_faces {
   std::vector<vec3> points;
   coarse_skeleton skeleton;
   std::size_t matched = 0; ///< lines, by the last `remesh`
-  batched_entities<face_segments> made_segments{std::make_shared<entity_store>()};
+  matched_faces made_segments{std::make_shared<entity_store>()};
   progress on_progress = {}; ///< of the matching
 
   explicit two_faces(std::vector<vec3> corners) : points(std::move(corners)) {

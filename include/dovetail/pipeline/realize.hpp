@@ -62,10 +62,10 @@ struct skeleton_store {
   explicit skeleton_store(const std::shared_ptr<entity_store>& store)
       : lines(store), patches(store), segments(store) {}
 
-  batched_entities<fine_line> lines;        ///< by the keys of lines
-  region_store patches;                     ///< patches by theirs
-  batched_entities<face_segments> segments; ///< of lines, per interface face
-  std::vector<content_key> patches_apart;   ///< growing; of a skeleton of which no two triangles cross
+  batched_entities<fine_line> lines;      ///< by the keys of lines
+  region_store patches;                   ///< patches by theirs
+  matched_faces segments;                 ///< of lines, for groups of interface faces
+  std::vector<content_key> patches_apart; ///< growing; of a skeleton of which no two triangles cross
 };
 
 /// Finds the skeleton of a divided background mesh, of which some parts may have been merged since, into

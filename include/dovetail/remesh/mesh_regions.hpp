@@ -114,15 +114,33 @@ struct region_set {
   std::function<surface_region(const any_geometry&, std::size_t)> build;
   /// The surface of a region, from a model of the worker's own.
   std::function<any_surface(const any_geometry&, std::size_t)> surface_of;
-  /// What the surface of each region is a function of beside its face and boundary; empty where there is
-  /// nothing.
+  /// For regions on no face: what their surface, and with it the parameters of their boundary, is a function
+  /// of beside the boundary's points; the default for regions on a face. Empty where all are.
   std::vector<content_key> surface_keys = {};
+  /// The boundary of a region on no face, which may lack its parameters; where there is none, `build` tells.
+  std::function<patch_boundary(std::size_t)> outline_of = {};
   /// Edges that a region must not have since another one has them; `mesh_regions` adds to them.
   std::map<std::size_t, std::vector<simplex<1>>> forbidden_edges = {};
 
+  /// Whether the key of a region's surface tells its parameters.
+  bool has_surface_key(std::size_t r) const {
+    return r < surface_keys.size() && surface_keys[r] != content_key{};
+  }
   /// A region with its boundary and the edges it must not have.
   surface_region region(const any_geometry& own, std::size_t r) const {
-    surface_region built = build(own, r);
+    return with_forbidden_edges(r, build(own, r));
+  }
+  /// The same, perhaps without its parameters.
+  surface_region outline(const any_geometry& own, std::size_t r) const {
+    if (!outline_of || !has_surface_key(r))
+      return region(own, r);
+    surface_region built;
+    built.boundary = outline_of(r);
+    return with_forbidden_edges(r, std::move(built));
+  }
+
+private:
+  surface_region with_forbidden_edges(std::size_t r, surface_region built) const {
     if (const auto more = forbidden_edges.find(r); more != forbidden_edges.end())
       append(built.boundary.forbidden_edges, more->second);
     return built;

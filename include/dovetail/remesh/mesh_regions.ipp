@@ -119,13 +119,11 @@ public:
       : model_(model), set_(set), mesh_it_(mesh_it), size_(size), run_(run), store_(store),
         options_(options) {
     for (std::size_t r = 0; r < set.count; ++r) {
-      const surface_region region = set.region(model, r);
-      const auto segments = static_cast<double>(region.boundary.segments.size());
+      const surface_region region = outline(r);
       result_.keys.push_back(key_of(r, region));
       append_row(result_.labels, region.boundary.labels);
       append_row(segments_, region.boundary.segments);
-      costs_.push_back(segments +
-                       segments * segments / 5.4); // the triangles in a disk with so many around it
+      costs_.push_back(triangles_within(static_cast<double>(region.boundary.segments.size())));
     }
   }
 
@@ -143,6 +141,11 @@ private:
     rows.begins.push_back(rows.items.size());
   }
 
+  /// What the key of a region is made of.
+  surface_region outline(std::size_t r) const {
+    return size_.is_refined() ? set_.region(model_, r) : set_.outline(model_, r);
+  }
+
   box3 place(const any_geometry& model, std::size_t r, const patch_boundary& boundary) const {
     return size_.is_refined() ? place_of(boundary, set_.surface_of(model, r)) : box3{};
   }
@@ -151,21 +154,33 @@ private:
   /// and which edges are forbidden.
   content_key key_of(std::size_t r, const surface_region& region) const {
     const patch_boundary& b = region.boundary;
-    std::map<local_id, local_id> first_with_label;
-    std::vector<local_id> same_label;
+    std::vector<std::pair<local_id, local_id>> by_label; // with the place
     for (std::size_t v = 0; v < b.labels.size(); ++v)
-      same_label.push_back(first_with_label.try_emplace(b.labels[v], static_cast<local_id>(v)).first->second);
+      by_label.emplace_back(b.labels[v], static_cast<local_id>(v));
+    sort_all(by_label);
+    const auto first_with = [&](local_id label) {
+      const auto found = std::lower_bound(by_label.begin(), by_label.end(), std::pair(label, local_id{0}));
+      return found != by_label.end() && found->first == label ? found->second : no_id;
+    };
+    std::vector<local_id> same_label(b.labels.size());
+    local_id first = no_id;
+    for (std::size_t i = 0; i < by_label.size(); ++i) {
+      const auto [label, v] = by_label[i];
+      first = i > 0 && by_label[i - 1].first == label ? first : v;
+      same_label[v] = first;
+    }
     std::vector<simplex<1>> forbidden;
     for (const auto& [x, y] : b.forbidden_edges)
-      if (const auto at_x = first_with_label.find(x), at_y = first_with_label.find(y);
-          at_x != first_with_label.end() && at_y != first_with_label.end())
-        forbidden.push_back({at_x->second, at_y->second});
+      if (const local_id at_x = first_with(x), at_y = first_with(y); at_x != no_id && at_y != no_id)
+        forbidden.push_back({at_x, at_y});
     key_maker make(size_.key_near(place(model_, r, b)));
     make(std::int64_t{region.face})(region.size_factor)(std::int64_t{options_.attempts.folds})(
         std::int64_t{options_.parameters})(std::int64_t{options_.deviation})(std::int64_t{options_.angles});
-    make(b.uv)(b.points)(same_label)(b.segments)(forbidden);
-    if (!set_.surface_keys.empty())
+    if (set_.has_surface_key(r))
       make(static_cast<std::int64_t>(set_.surface_keys[r].value));
+    else
+      make(b.uv);
+    make(b.points)(same_label)(b.segments)(forbidden);
     return make.key();
   }
 
@@ -243,22 +258,33 @@ private:
           chords.emplace_back(labelled(r, chord), r);
     if (chords.empty())
       return false;
-    std::vector<simplex<1>> lines;
-    for (std::size_t r = 0; r < set_.count; ++r)
-      for (const simplex<1>& segment : std::as_const(segments_)[r])
-        lines.push_back(labelled(r, segment));
-    sort_unique(lines);
     sort_unique(chords);
+    const std::vector<std::uint8_t> is_line = chords_on_segments(chords, labelled);
     std::set<std::size_t> changed;
     for (std::size_t i = 0; i < chords.size(); ++i) {
       const auto& [chord, r] = chords[i];
       const bool another_has_it = i > 0 && chords[i - 1].first == chord;
-      if ((another_has_it || std::binary_search(lines.begin(), lines.end(), chord)) && forbid(r, chord))
+      if ((another_has_it || is_line[i] != 0) && forbid(r, chord))
         changed.insert(r);
     }
     for (const std::size_t r : changed)
-      result_.keys[r] = key_of(r, set_.region(model_, r));
+      result_.keys[r] = key_of(r, outline(r));
     return !changed.empty();
+  }
+
+  /// Whether a segment of any region joins the same labels, per chord; they are sorted.
+  template <class Labelled>
+  std::vector<std::uint8_t> chords_on_segments(const std::vector<std::pair<simplex<1>, std::size_t>>& chords,
+                                               const Labelled& labelled) const {
+    std::vector<std::uint8_t> found(chords.size(), 0);
+    for (std::size_t r = 0; r < set_.count; ++r)
+      for (const simplex<1>& segment : segments_[r]) {
+        const simplex<1> line = labelled(r, segment);
+        auto chord = std::lower_bound(chords.begin(), chords.end(), std::pair(line, std::size_t{0}));
+        for (; chord != chords.end() && chord->first == line; ++chord)
+          found[static_cast<std::size_t>(chord - chords.begin())] = 1;
+      }
+    return found;
   }
 
   /// False when it is forbidden already. An edge that the region forbids itself is in no mesh of it.

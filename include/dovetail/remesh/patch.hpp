@@ -29,6 +29,9 @@ struct patch_boundary {
   std::vector<std::array<local_id, 2>> forbidden_edges = {};
 };
 
+/// About how many triangles a patch has with so many segments around it: as in a disk.
+inline double triangles_within(double segments) { return segments + segments * segments / 5.4; }
+
 /// A parametric surface under a patch.
 ///
 /// Valid expressions for `const S& s`, `vec3 p`, `vec2 uv`:

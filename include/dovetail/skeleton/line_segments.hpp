@@ -2,8 +2,11 @@
 /// Numbers of segments that lines are given in place of those which the sizing field asks for.
 #pragma once
 
+#include "dovetail/parallel/batched_entities.hpp"
+
 #include <array>
 #include <compare>
+#include <vector>
 
 namespace dovetail {
 
@@ -16,5 +19,7 @@ struct line_segments {
 };
 /// Of the lines of a face.
 using face_segments = std::array<line_segments, 3>;
+/// Those found for faces that were tried in turn, by the keys of all of these.
+using matched_faces = batched_entities<std::vector<face_segments>>;
 
 } // namespace dovetail

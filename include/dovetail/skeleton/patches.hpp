@@ -44,6 +44,9 @@ std::array<local_id, 3> lines_of(const skeleton_face& face, const std::vector<sk
 /// The interface faces at each line, growing. O(n log n).
 compressed_rows<local_id> faces_of_lines(const coarse_skeleton& skeleton);
 
+/// The boundary of an interface face without its parameters, which are a function of its corners and points.
+patch_boundary interface_outline(const skeleton_face& face, const numbered_lines& lines);
+
 /// Builds the patch of an interface face.
 interface_face_patch interface_patch(const skeleton_face& face, std::span<const vec3> coarse_points,
                                      const numbered_lines& lines);

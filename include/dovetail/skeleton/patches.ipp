@@ -189,25 +189,47 @@ DOVETAIL_INLINE compressed_rows<local_id> faces_of_lines(const coarse_skeleton& 
   });
 }
 
+namespace detail {
+
+/// The sides of an interface face in its key order, point by point.
+struct interface_sides {
+  std::array<local_id, 3> lines;
+  std::array<std::vector<vec3>, 3> points;
+  std::array<std::vector<local_id>, 3> labels;
+};
+
+inline interface_sides sides_of(const skeleton_face& face, const numbered_lines& lines) {
+  const simplex<2> key = key_order(face);
+  interface_sides sides{.lines = lines_of(face, lines.keys), .points = {}, .labels = {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    sides.labels[i] = lines.along(sides.lines[i], key[(i + 1) % 3]);
+    sides.points[i].reserve(sides.labels[i].size());
+    for (const local_id number : sides.labels[i])
+      sides.points[i].push_back(lines.points[number]);
+  }
+  return sides;
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE patch_boundary interface_outline(const skeleton_face& face, const numbered_lines& lines) {
+  const auto sides = detail::sides_of(face, lines);
+  return remesh::triangle_outline(sides.points, sides.labels);
+}
+
 DOVETAIL_INLINE interface_face_patch interface_patch(const skeleton_face& face,
                                                      std::span<const vec3> coarse_points,
                                                      const numbered_lines& lines) {
-  const simplex<2> key = key_order(face);
   std::array<vec3, 3> corners;
-  std::array<std::vector<vec3>, 3> sides;
-  std::array<std::vector<local_id>, 3> labels;
-  const std::array<local_id, 3> line_of_side = lines_of(face, lines.keys);
-  for (std::size_t i = 0; i < 3; ++i) {
-    corners[i] = coarse_points[key[i]];
-    labels[i] = lines.along(line_of_side[i], key[(i + 1) % 3]);
-    for (const local_id number : labels[i])
-      sides[i].push_back(lines.points[number]);
-  }
-  remesh::triangle_surface surface(corners, sides);
-  skeleton_patch patch;
-  patch.boundary = remesh::triangle_boundary(surface, sides, labels);
+  const simplex<2> key = key_order(face);
   for (std::size_t i = 0; i < 3; ++i)
-    patch.line_of_segment.insert(patch.line_of_segment.end(), labels[i].size() - 1, line_of_side[i]);
+    corners[i] = coarse_points[key[i]];
+  const auto sides = detail::sides_of(face, lines);
+  remesh::triangle_surface surface(corners, sides.points);
+  skeleton_patch patch;
+  patch.boundary = remesh::triangle_boundary(surface, sides.points, sides.labels);
+  for (std::size_t i = 0; i < 3; ++i)
+    patch.line_of_segment.insert(patch.line_of_segment.end(), sides.labels[i].size() - 1, sides.lines[i]);
   return {std::move(surface), std::move(patch)};
 }
 

@@ -46,6 +46,7 @@ public:
         corners.push_back(coarse_points_[v]);
       set.surface_keys.push_back(key_maker{}(corners).key());
     }
+    set.outline_of = [this](std::size_t p) { return interface_outline(face_of(p), lines_); };
     return set;
   }
 

@@ -9,6 +9,7 @@
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 #include "dovetail/skeleton/line_segments.hpp"
+#include "dovetail/skeleton/matched_skeleton.hpp"
 #include "dovetail/skeleton/patches.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 #include "dovetail/skeleton/segment_trials.hpp"
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,24 +25,29 @@ namespace dovetail {
 
 namespace detail {
 
-/// Mends the faces in an order, those side by side whose trials and changes have no line in common.
+/// Mends faces as if one by one, in their order; those side by side that are apart.
 template <surface_mesher Mesher>
 class segment_matcher {
 public:
-  segment_matcher(const any_geometry& model, matched_skeleton skeleton, const Mesher& mesher,
-                  const any_executor& run, batched_entities<face_segments>& made, const progress& on_progress)
-      : model_(model), skeleton_(std::move(skeleton)), mesher_(mesher), run_(run), made_(made),
-        on_progress_(on_progress) {
-    for (const skeleton_line& line : skeleton_.coarse.lines)
-      line_keys_.push_back(dovetail::key_of(line, skeleton_.coarse_points, skeleton_.size));
+  segment_matcher(const any_geometry& model, std::span<const vec3> coarse_points, coarse_skeleton& coarse,
+                  std::vector<fine_line> lines, const refined_sizing& size, double threshold,
+                  const Mesher& mesher, const any_executor& run, matched_faces& made,
+                  const progress& on_progress)
+      : model_(model), coarse_points_(coarse_points), coarse_(coarse), lines_(std::move(lines)), size_(size),
+        threshold_(threshold), mesher_(mesher), run_(run), made_(made), on_progress_(on_progress),
+        faces_of_line_(faces_of_lines(coarse)) {
+    for (const skeleton_line& line : coarse.lines)
+      line_keys_.push_back(dovetail::key_of(line, coarse_points, size));
   }
 
   /// Faces around what changed are tried in the next sweep, as they may be worse or easier to mend now.
   void run(std::vector<local_id> wanted) {
     for (int sweep = 0; sweep < sweeps && !wanted.empty(); ++sweep) {
       touched_.clear();
-      for (const std::vector<local_id>& level : levels_of(wanted))
-        mend(level);
+      const matched_skeleton skeleton = as_it_is();
+      const matching_passes order(skeleton, wanted);
+      for (const std::vector<faces_in_turn>& pass : order.passes())
+        mend(pass);
       wanted.swap(touched_);
       sort_unique(wanted);
     }
@@ -50,90 +55,103 @@ public:
 
 private:
   static constexpr int sweeps = 3;
-  static constexpr double faces_per_task = 16;
+  static constexpr double triangles_per_task = 512; // each meshed some hundred times
 
-  /// A face comes behind all before it that change what it looks at, or look at what it changes.
-  std::vector<std::vector<local_id>> levels_of(const std::vector<local_id>& faces) const {
-    std::vector<std::vector<local_id>> levels;
-    std::map<local_id, std::size_t> changed, seen; // per line: the first level that is free of it
-    for (const local_id f : faces) {
-      std::size_t level = 0;
-      const auto lines = skeleton_.sides(f);
-      skeleton_.for_each_beside(f, [&](local_id other) {
-        for (const local_id line : skeleton_.sides(other))
-          level = std::max(level, changed[line]);
-      });
-      for (const local_id line : lines)
-        level = std::max(level, seen[line]);
-      levels.resize(std::max(levels.size(), level + 1));
-      levels[level].push_back(f);
-      skeleton_.for_each_beside(f, [&](local_id other) {
-        for (const local_id line : skeleton_.sides(other))
-          seen[line] = std::max(seen[line], level + 1);
-      });
-      for (const local_id line : lines)
-        changed[line] = level + 1;
-    }
-    return levels;
+  matched_skeleton as_it_is() const {
+    return {coarse_points_, coarse_, lines_, size_, threshold_, faces_of_line_};
   }
 
-  /// All that the trials of a face are a function of but the model, the plain sizes and the mesher.
-  content_key key_of(local_id f) const {
+  /// All that the trials of faces are a function of but the model, the plain sizes and the mesher.
+  content_key key_of(const matched_skeleton& skeleton, const faces_in_turn& faces) const {
     key_maker make;
-    make(skeleton_.threshold);
+    make(threshold_);
     const auto add = [&](local_id other) {
-      for (const vec3& p : skeleton_.corners(other))
+      for (const vec3& p : skeleton.corners(other))
         make(p.x)(p.y)(p.z);
-      for (const local_id line : skeleton_.sides(other))
+      for (const local_id line : skeleton.sides(other))
         make(static_cast<std::int64_t>(line_keys_[line].value));
-      make(static_cast<std::int64_t>(skeleton_.size.key_near(skeleton_.place(other)).value));
+      make(static_cast<std::int64_t>(size_.key_near(skeleton.place(other)).value));
     };
-    add(f);
-    skeleton_.for_each_beside(f, add);
+    for (const local_id f : faces) {
+      add(f);
+      skeleton.for_each_beside(f, add);
+    }
     return make.key();
   }
 
-  void mend(const std::vector<local_id>& faces) {
+  static double triangles_in(const matched_skeleton& skeleton, const faces_in_turn& faces) {
+    double sum = 0;
+    for (const local_id f : faces) {
+      double segments = 3;
+      for (const local_id line : skeleton.sides(f))
+        segments += static_cast<double>(skeleton.points_of(line).size());
+      sum += triangles_within(segments);
+    }
+    return sum;
+  }
+
+  void mend(const std::vector<faces_in_turn>& pass) {
+    const matched_skeleton skeleton = as_it_is();
     std::vector<content_key> keys;
-    for (const local_id f : faces)
-      keys.push_back(key_of(f));
+    std::vector<double> costs;
+    for (const faces_in_turn& faces : pass) {
+      keys.push_back(key_of(skeleton, faces));
+      costs.push_back(triangles_in(skeleton, faces));
+    }
     const auto failures = made_.make_missing(
-        keys, std::vector<double>(faces.size(), 1), faces_per_task,
+        keys, costs, triangles_per_task,
         [&](const std::vector<std::size_t>& wanted) {
           const task_model own(model_, run_);
-          segment_trials trials(own.get(), skeleton_, mesher_);
-          std::vector<face_segments> chosen;
+          std::vector<std::vector<face_segments>> chosen;
           for (const std::size_t i : wanted)
-            chosen.push_back(trials.mend(faces[i]));
+            chosen.push_back(segments_for(pass[i], own.get(), skeleton));
           return chosen;
         },
         run_, run_options{.on_progress = on_progress_, .stage = "matching"});
     if (!failures.empty())
       throw mesher_error("trials of other segments for the lines of an interface face failed: " +
                          failures.front().reason);
-    made_.for_each(keys, [&](std::size_t i, const face_segments& chosen) { accept(faces[i], chosen); });
+    made_.for_each(keys, [&](std::size_t i, const std::vector<face_segments>& chosen) {
+      for (std::size_t k = 0; k < chosen.size(); ++k)
+        accept(pass[i][k], chosen[k]);
+    });
+  }
+
+  std::vector<face_segments> segments_for(const faces_in_turn& faces, const any_geometry& model,
+                                          matched_skeleton skeleton) const {
+    std::vector<face_segments> chosen;
+    for (const local_id f : faces) {
+      chosen.push_back(segment_trials(model, skeleton, mesher_).mend(f));
+      skeleton.change(model, f, chosen.back());
+    }
+    return chosen;
   }
 
   void accept(local_id f, const face_segments& chosen) {
-    const std::array<local_id, 3> sides = skeleton_.sides(f);
+    const std::array<local_id, 3> sides = lines_of(coarse_.faces[f], coarse_.lines);
     for (std::size_t i = 0; i < 3; ++i)
       if (chosen[i].count != 0) {
-        skeleton_line& line = skeleton_.coarse.lines[sides[i]];
+        const local_id l = sides[i];
+        skeleton_line& line = coarse_.lines[l];
         line.segments = chosen[i].count;
         line.bias = chosen[i].bias;
-        skeleton_.lines[sides[i]] =
-            remesh_line(model_, line, skeleton_.coarse_points, skeleton_.size_near(sides[i]));
-        line_keys_[sides[i]] = dovetail::key_of(line, skeleton_.coarse_points, skeleton_.size);
-        append(touched_, skeleton_.faces_of_line[sides[i]]);
+        lines_[l] = remesh_line(model_, line, coarse_points_, size_.near(place_of(line, coarse_points_)));
+        line_keys_[l] = dovetail::key_of(line, coarse_points_, size_);
+        append(touched_, std::as_const(faces_of_line_)[l]);
       }
   }
 
   const any_geometry& model_;
-  matched_skeleton skeleton_;
+  std::span<const vec3> coarse_points_;
+  coarse_skeleton& coarse_;
+  std::vector<fine_line> lines_;
+  const refined_sizing& size_;
+  double threshold_;
   const Mesher& mesher_;
   const any_executor& run_;
-  batched_entities<face_segments>& made_;
+  matched_faces& made_;
   const progress& on_progress_;
+  compressed_rows<local_id> faces_of_line_;
   std::vector<content_key> line_keys_;
   std::vector<local_id> touched_; ///< faces at lines that a sweep changed
 };
@@ -142,23 +160,22 @@ private:
 
 /// Gives lines other numbers of segments, or uneven ones (`skeleton_line::segments`, `bias`), where that
 /// lifts the smallest angle of an interface face towards `threshold_deg` and costs the faces beside it less.
-/// `faces` are those with smaller angles on the present `lines` (`faces_with_small_angles`). They are tried
-/// with `mesher`, in their order, and side by side through `run` where they do not touch: the
+/// `faces`, growing, are those with smaller angles on the present `lines` (`faces_with_small_angles`). They
+/// are tried with `mesher`, in their order, and side by side through `run` where they are apart: the
 /// result is a function of the skeleton, the model, the sizes and the mesher. `made` carries what was found
-/// for a face from one call to the next. Returns the number of lines with such segments. Costs up to some
+/// for faces from one call to the next. Returns the number of lines with such segments. Costs up to some
 /// hundred meshes of each face with a smaller angle, fewer where its corners tell that they cannot help.
 /// Throws `mesher_error` when a trial cannot be evaluated.
 template <surface_mesher Mesher>
 std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
                            coarse_skeleton& skeleton, std::vector<fine_line> lines,
                            std::vector<local_id> faces, const refined_sizing& size, double threshold_deg,
-                           const Mesher& mesher, const any_executor& run,
-                           batched_entities<face_segments>& made, const progress& on_progress = {}) {
+                           const Mesher& mesher, const any_executor& run, matched_faces& made,
+                           const progress& on_progress = {}) {
   if (faces.empty())
     return 0;
-  detail::segment_matcher(
-      model, {coarse_points, skeleton, std::move(lines), size, threshold_deg, faces_of_lines(skeleton)},
-      mesher, run, made, on_progress)
+  detail::segment_matcher(model, coarse_points, skeleton, std::move(lines), size, threshold_deg, mesher, run,
+                          made, on_progress)
       .run(std::move(faces));
   return static_cast<std::size_t>(
       std::count_if(skeleton.lines.begin(), skeleton.lines.end(),

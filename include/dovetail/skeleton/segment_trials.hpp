@@ -3,15 +3,13 @@
 /// few as the angles at the corners allow.
 #pragma once
 
-#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/remesh/concepts.hpp"
 #include "dovetail/remesh/triangle_surface.hpp"
-#include "dovetail/sizing/refined_sizing.hpp"
 #include "dovetail/skeleton/line_segments.hpp"
-#include "dovetail/skeleton/patches.hpp"
+#include "dovetail/skeleton/matched_skeleton.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
 
 #include <algorithm>
@@ -19,41 +17,13 @@
 #include <cmath>
 #include <compare>
 #include <map>
-#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 namespace dovetail::detail {
 
-/// A skeleton whose lines may get other segments, and the lines as they are.
-struct matched_skeleton {
-  std::span<const vec3> coarse_points;
-  coarse_skeleton& coarse;
-  std::vector<fine_line> lines;
-  const refined_sizing& size;
-  double threshold;
-  compressed_rows<local_id> faces_of_line;
-
-  const skeleton_line& line(local_id l) const { return coarse.lines[l]; }
-  vec3 point(local_id v) const { return coarse_points[v]; }
-  any_sizing size_near(local_id l) const { return size.near(place_of(line(l), coarse_points)); }
-  std::array<local_id, 3> sides(local_id face) const { return lines_of(coarse.faces[face], coarse.lines); }
-  std::array<vec3, 3> corners(local_id face) const {
-    const simplex<2> key = key_order(coarse.faces[face]);
-    return {point(key[0]), point(key[1]), point(key[2])};
-  }
-  box3 place(local_id face) const { return roomy_box_around(corners(face)); }
-  /// Calls `visit(other)` for the faces at the lines of a face; itself is one of them, for each line.
-  template <class Visit>
-  void for_each_beside(local_id face, const Visit& visit) const {
-    for (const local_id side : sides(face))
-      for (const local_id other : faces_of_line[side])
-        visit(other);
-  }
-};
-
-/// The trials of one task, during which the lines stay as they are.
+/// The trials of one face, during which the lines stay as they are.
 template <surface_mesher Mesher>
 class segment_trials {
 public:
@@ -110,7 +80,7 @@ private:
     const std::array<local_id, 3> sides = skeleton_.sides(f);
     const auto is_straight = [&](local_id line) { return skeleton_.line(line).on.dimension == 3; };
     if (std::all_of(sides.begin(), sides.end(), is_straight) && // its corners stay as they are
-        before - (skeleton_.threshold - smallest_corner_angle(skeleton_.corners(f))) <= least_gain)
+        before - (skeleton_.threshold() - smallest_corner_angle(skeleton_.corners(f))) <= least_gain)
       return {};
     std::array<std::vector<choice>, 3> choices;
     for (std::size_t i = 0; i < 3; ++i)
@@ -137,7 +107,7 @@ private:
       for (c[1] = 0; c[1] < choices[1].size(); ++c[1])
         for (c[2] = 0; c[2] < choices[2].size(); ++c[2])
           if (c[0] + c[1] + c[2] > 0 &&
-              before - (skeleton_.threshold - std::min({limit(0, c), limit(1, c), limit(2, c)})) >
+              before - (skeleton_.threshold() - std::min({limit(0, c), limit(1, c), limit(2, c)})) >
                   least_gain) {
             all.emplace_back();
             for (std::size_t i = 0; i < 3; ++i) {
@@ -155,7 +125,7 @@ private:
   std::vector<choice> choices_of(local_id l) {
     const skeleton_line& line = skeleton_.line(l);
     const double wanted = wanted_segments(l);
-    const int now = static_cast<int>(skeleton_.lines[l].points.size()) + 1;
+    const int now = static_cast<int>(skeleton_.points_of(l).size()) + 1;
     std::vector<choice> choices{{}};
     for (int n = std::max(1, now - 2); n <= now + 2; ++n)
       for (const double bias : {0.0, -0.4, 0.4}) {
@@ -178,7 +148,7 @@ private:
       sum += distance(before, p) / size(midpoint(before, p));
       before = p;
     };
-    for (const vec3& p : skeleton_.lines[l].points)
+    for (const vec3& p : skeleton_.points_of(l))
       pass(p);
     pass(skeleton_.point(line.vertices[1]));
     return sum;
@@ -186,13 +156,13 @@ private:
 
   const std::vector<vec3>& points_of(local_id l, line_segments wanted) {
     if (wanted.count == 0)
-      return skeleton_.lines[l].points;
+      return skeleton_.points_of(l);
     const auto [found, is_new] = tried_.try_emplace({l, wanted});
     if (is_new) {
       skeleton_line line = skeleton_.line(l);
       line.segments = wanted.count;
       line.bias = wanted.bias;
-      found->second = remesh_line(model_, line, skeleton_.coarse_points, skeleton_.size_near(l)).points;
+      found->second = remesh_line(model_, line, skeleton_.coarse_points(), skeleton_.size_near(l)).points;
     }
     return found->second;
   }
@@ -204,7 +174,7 @@ private:
     double loss = 0;
     for (std::size_t i = 0; i < 3; ++i)
       if (changed[i].count != 0)
-        for (const local_id other : skeleton_.faces_of_line[sides[i]])
+        for (const local_id other : skeleton_.faces_at(sides[i]))
           if (other != f && loss < bound) {
             face_segments beside{};
             const std::array<local_id, 3> its = skeleton_.sides(other);
@@ -222,7 +192,7 @@ private:
   /// The largest that the smallest angle at a corner can be when some lines are changed: its first segments
   /// and the edge between their ends make a triangle, or something halves it.
   double corner_limit(local_id f, const face_segments& changed, std::size_t corner) {
-    const local_id vertex = key_order(skeleton_.coarse.faces[f])[corner];
+    const local_id vertex = skeleton_.key(f)[corner];
     const std::array<local_id, 3> sides = skeleton_.sides(f);
     const vec3 p = skeleton_.point(vertex);
     const auto beside = [&](std::size_t i) {
@@ -244,21 +214,21 @@ private:
 
   /// What `deficit` is at least, by the corners alone.
   double least_deficit(local_id f, const face_segments& changed) {
-    return std::max(0.0,
-                    skeleton_.threshold - std::min({corner_limit(f, changed, 0), corner_limit(f, changed, 1),
-                                                    corner_limit(f, changed, 2)}));
+    return std::max(0.0, skeleton_.threshold() -
+                             std::min({corner_limit(f, changed, 0), corner_limit(f, changed, 1),
+                                       corner_limit(f, changed, 2)}));
   }
 
   /// By how much the smallest angle of a face is under the threshold when some lines are changed.
   double deficit(local_id f, const face_segments& changed) {
     const auto [found, is_new] = deficits_.try_emplace({f, changed});
     if (is_new)
-      found->second = skeleton_.threshold - std::min(skeleton_.threshold, least_angle(f, changed));
+      found->second = skeleton_.threshold() - std::min(skeleton_.threshold(), least_angle(f, changed));
     return found->second;
   }
 
   double least_angle(local_id f, const face_segments& changed) {
-    const simplex<2> key = key_order(skeleton_.coarse.faces[f]);
+    const simplex<2> key = skeleton_.key(f);
     const std::array<local_id, 3> sides = skeleton_.sides(f);
     std::array<std::vector<vec3>, 3> points;
     std::array<std::vector<local_id>, 3> labels;
@@ -276,7 +246,7 @@ private:
     const remesh::triangle_surface surface(skeleton_.corners(f), points);
     const patch_boundary boundary = remesh::triangle_boundary(surface, points, labels);
     const patch_mesh made =
-        mesher_(any_surface::holding(surface), boundary, skeleton_.size.near(skeleton_.place(f)));
+        mesher_(any_surface::holding(surface), boundary, skeleton_.size().near(skeleton_.place(f)));
     if (!made.ok())
       return 0;
     const auto frozen = static_cast<local_id>(boundary.points.size());

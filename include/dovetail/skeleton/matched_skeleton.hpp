@@ -1,0 +1,171 @@
+/// @file
+/// A skeleton whose lines get other numbers of segments, and which of its faces have to wait for each other.
+#pragma once
+
+#include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/core/vector.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/sizing/refined_sizing.hpp"
+#include "dovetail/skeleton/fine_lines.hpp"
+#include "dovetail/skeleton/line_segments.hpp"
+#include "dovetail/skeleton/patches.hpp"
+#include "dovetail/skeleton/remesh_lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace dovetail::detail {
+
+/// Looks at lines as they are but for those that it has changed itself, so that each task has its own.
+class matched_skeleton {
+public:
+  matched_skeleton(std::span<const vec3> coarse_points, const coarse_skeleton& coarse,
+                   std::span<const fine_line> lines, const refined_sizing& size, double threshold,
+                   const compressed_rows<local_id>& faces_of_line)
+      : coarse_points_(coarse_points), coarse_(coarse), lines_(lines), size_(size), threshold_(threshold),
+        faces_of_line_(faces_of_line) {}
+
+  double threshold() const { return threshold_; }
+  std::span<const vec3> coarse_points() const { return coarse_points_; }
+  const refined_sizing& size() const { return size_; }
+  vec3 point(local_id v) const { return coarse_points_[v]; }
+
+  const skeleton_line& line(local_id l) const {
+    const auto found = changed_.find(l);
+    return found == changed_.end() ? coarse_.lines[l] : found->second.line;
+  }
+  const std::vector<vec3>& points_of(local_id l) const {
+    const auto found = changed_.find(l);
+    return found == changed_.end() ? lines_[l].points : found->second.points.points;
+  }
+  any_sizing size_near(local_id l) const { return size_.near(place_of(line(l), coarse_points_)); }
+
+  simplex<2> key(local_id face) const { return key_order(coarse_.faces[face]); }
+  std::array<local_id, 3> sides(local_id face) const { return lines_of(coarse_.faces[face], coarse_.lines); }
+  std::array<vec3, 3> corners(local_id face) const {
+    const simplex<2> vertices = key(face);
+    return {point(vertices[0]), point(vertices[1]), point(vertices[2])};
+  }
+  box3 place(local_id face) const { return roomy_box_around(corners(face)); }
+  std::span<const local_id> faces_at(local_id l) const { return faces_of_line_[l]; }
+  /// Calls `visit(other)` for the faces at the lines of a face; itself is one of them, for each line.
+  template <class Visit>
+  void for_each_beside(local_id face, const Visit& visit) const {
+    for (const local_id side : sides(face))
+      for (const local_id other : faces_at(side))
+        visit(other);
+  }
+
+  /// Gives the lines of a face the segments that were chosen for it.
+  void change(const any_geometry& model, local_id face, const face_segments& chosen) {
+    const std::array<local_id, 3> its = sides(face);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (chosen[i].count != 0) {
+        skeleton_line changed = line(its[i]);
+        changed.segments = chosen[i].count;
+        changed.bias = chosen[i].bias;
+        changed_[its[i]] = {changed, remesh_line(model, changed, coarse_points_, size_near(its[i]))};
+      }
+  }
+
+private:
+  struct changed_line {
+    skeleton_line line;
+    fine_line points;
+  };
+
+  std::span<const vec3> coarse_points_;
+  const coarse_skeleton& coarse_;
+  std::span<const fine_line> lines_;
+  const refined_sizing& size_;
+  double threshold_;
+  const compressed_rows<local_id>& faces_of_line_;
+  std::map<local_id, changed_line> changed_;
+};
+
+/// Faces of which each one is mended on what the ones before it have left.
+using faces_in_turn = std::vector<local_id>;
+
+/// Faces that have to be mended in their order, in passes one after the other, so that what comes out is what
+/// it were if they were mended one by one: all that is in a pass at once is apart from the rest of it. A face
+/// changes its own lines, and looks at those of the faces beside it.
+class matching_passes {
+public:
+  matching_passes(const matched_skeleton& skeleton, const std::vector<local_id>& faces)
+      : skeleton_(skeleton) {
+    std::vector<local_id> crowded;
+    for (faces_in_turn& group : groups_of(faces))
+      if (group.size() > most_in_turn)
+        append(crowded, group);
+      else
+        put(0, std::move(group));
+    sort_all(crowded);
+    add_levels(crowded);
+  }
+
+  const std::vector<std::vector<faces_in_turn>>& passes() const { return passes_; }
+
+private:
+  /// Of more faces that wait for each other in one place, those that do not are mended side by side.
+  static constexpr std::size_t most_in_turn = 32;
+
+  void put(std::size_t pass, faces_in_turn group) {
+    passes_.resize(std::max(passes_.size(), pass + 1));
+    passes_[pass].push_back(std::move(group));
+  }
+
+  /// Faces between which there is a chain of such that one of two looks at what the other one changes.
+  std::vector<faces_in_turn> groups_of(const std::vector<local_id>& faces) const {
+    std::unordered_map<local_id, std::vector<local_id>> changing; // per line: places in `faces`
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (const local_id line : skeleton_.sides(faces[i]))
+        changing[line].push_back(static_cast<local_id>(i));
+    disjoint_sets together(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      skeleton_.for_each_beside(faces[i], [&](local_id other) {
+        for (const local_id line : skeleton_.sides(other))
+          if (const auto found = changing.find(line); found != changing.end())
+            for (const local_id j : found->second)
+              together.unite(static_cast<local_id>(i), j);
+      });
+    const auto sets = together.number_sets();
+    std::vector<faces_in_turn> groups(sets.count);
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      groups[sets.of_member[i]].push_back(faces[i]);
+    return groups;
+  }
+
+  /// A face comes behind all before it that change what it looks at, or look at what it changes.
+  void add_levels(const std::vector<local_id>& faces) {
+    std::unordered_map<local_id, std::size_t> changed, seen; // per line: the first level that is free of it
+    for (const local_id f : faces) {
+      std::size_t level = 0;
+      const auto lines = skeleton_.sides(f);
+      skeleton_.for_each_beside(f, [&](local_id other) {
+        for (const local_id line : skeleton_.sides(other))
+          level = std::max(level, changed[line]);
+      });
+      for (const local_id line : lines)
+        level = std::max(level, seen[line]);
+      put(level, {f});
+      skeleton_.for_each_beside(f, [&](local_id other) {
+        for (const local_id line : skeleton_.sides(other))
+          seen[line] = std::max(seen[line], level + 1);
+      });
+      for (const local_id line : lines)
+        changed[line] = level + 1;
+    }
+  }
+
+  const matched_skeleton& skeleton_;
+  std::vector<std::vector<faces_in_turn>> passes_;
+};
+
+} // namespace dovetail::detail
