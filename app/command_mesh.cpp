@@ -19,6 +19,7 @@
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/distributed/by_elements.hpp"
+#include "dovetail/distributed/made_aside.hpp"
 #include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/files/write_trace.hpp"
 #include "dovetail/parallel/available_processors.hpp"
@@ -34,6 +35,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -168,7 +170,7 @@ public:
       lines_.emplace(stderr);
     parameters_.on_progress = callbacks();
     parameters_.on_progress("geometry", 0, 0);
-    model_source source = load_model(options_.model, D);
+    model_source source = load_model(options_.model, D, executor_for_model());
     figures_.seconds.geometry = clock_.seconds();
     if (options_.model.elements || source.thin_walls) {
       resolve_walls(source, options_.model, policies_, parameters_);
@@ -255,10 +257,12 @@ private:
   }
 
   void make(model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
+    const auto volume = volume_aside(source);
     generated<D> result = suppression_.retried(source, [&] { return generate(source, folder); });
     if constexpr (D == 3)
       if (source.volume && result.failures.empty())
-        compare_volume(result.mesh.skeleton, source.volume(), result.summary);
+        compare_volume(result.mesh.skeleton, volume ? volume->wait().value_or(std::nullopt) : source.volume(),
+                       result.summary);
     describe(source, result);
     if (!result.failures.empty()) {
       finish();
@@ -272,6 +276,19 @@ private:
     finish();
     if (leads_ && !formats_.empty())
       finished.record(figures_.files);
+  }
+
+  /// Each rank reads the model by itself.
+  any_executor executor_for_model() const {
+    return options_.network ? any_executor(parallel::serial{}) : policies_.executor;
+  }
+
+  /// The volume of the model as drawn, which takes as long as a stage. There are stages that leave a
+  /// processor free.
+  std::unique_ptr<made_aside<std::optional<double>>> volume_aside(const model_source& source) const {
+    if (D == 2 || !source.volume || options_.network || policies_.executor.workers() < 2)
+      return {};
+    return std::make_unique<made_aside<std::optional<double>>>(source.volume);
   }
 
   progress callbacks() {

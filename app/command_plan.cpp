@@ -43,7 +43,7 @@ int plan_run(const plan_options& options) {
   suppression details(options.mesh.model);
   terminal_progress lines(stderr);
   lines.update("geometry", 0, 0);
-  model_source source = load_model(options.mesh.model, D);
+  model_source source = load_model(options.mesh.model, D, policies.executor);
   parameters.on_progress = lines.callbacks();
   resolve_walls(source, options.mesh.model, policies, parameters);
   scale_to_elements(source, options.mesh.model, policies, parameters);

@@ -8,6 +8,7 @@
 
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/number_text.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/experiments/builtin_models.hpp"
 #include "dovetail/files/read_mesh.hpp"
 #include "dovetail/files/sizing_json.hpp"
@@ -17,6 +18,8 @@
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/models/plane/read.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
+#include "dovetail/parallel/task_model.hpp"
 #include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -24,6 +27,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -106,15 +110,40 @@ read_geometry geometry_of_file(const std::filesystem::path& file, const model_op
   }
 }
 
+/// A loop over samples of a model, in ranges. A range that fails is done again here, which tells why.
+struct divided_loop {
+  const any_executor& run;
+
+  template <class Work>
+  auto operator()(const any_geometry& model, std::size_t count, const Work& work) const {
+    constexpr std::size_t in_range = 2048;
+    if (count <= in_range)
+      return work(model, std::size_t{0}, count);
+    const auto range_of = [&](std::size_t range, const any_geometry& own) {
+      return work(own, in_range * range, std::min(count, in_range * (range + 1)));
+    };
+    auto results = map_tasks(run, (count + in_range - 1) / in_range,
+                             [&](std::size_t range) {
+                               const task_model own(model, run);
+                               return range_of(range, own.get());
+                             },
+                             {.stage = "geometry"});
+    decltype(range_of(0, model)) all;
+    for (std::size_t range = 0; range < results.size(); ++range)
+      append(all, results[range].value ? *std::move(results[range].value) : range_of(range, model));
+    return all;
+  }
+};
+
 /// The built-in model's own sizes; a size given scales all of them.
-model_source builtin_source(const std::string& name, const given_sizes& sizes) {
+model_source builtin_source(const std::string& name, const given_sizes& sizes, const any_executor& run) {
   auto built = builtin_model(name);
   any_geometry geometry(built.model);
   const box3 domain = geometry.bounds();
   std::string meshes;
   any_sizing size;
   if (sizes.has_file() || sizes.is_automatic()) {
-    size = sizes.field(domain, &geometry, &meshes);
+    size = sizes.field(domain, &geometry, &meshes, run);
   } else {
     const double ambient = sizes.length(domain).value_or(built.size);
     for (auto& source : built.sources)
@@ -135,7 +164,8 @@ std::string checksum_if_file(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, ignored) ? checksum_of_file(path) : std::string();
 }
 
-model_source file_source(const model_options& options, const given_sizes& sizes, int dimension) {
+model_source file_source(const model_options& options, const given_sizes& sizes, int dimension,
+                         const any_executor& run) {
   const std::filesystem::path file = options.input;
   const std::string checksum = checksum_if_file(file);
   auto [geometry, summary, volume] = geometry_of_file(file, options, dimension);
@@ -149,10 +179,10 @@ model_source file_source(const model_options& options, const given_sizes& sizes,
   std::optional<automatic_points> automatic;
   if (is_drawing(file) && sizes.is_automatic()) // there are no curved faces and no walls
     size = keep_bounds(uniform_size(domain.diagonal() / default_elements_across));
-  else if (automatic = sizes.points(geometry, dimension == 3); automatic)
+  else if (automatic = sizes.points(geometry, dimension == 3, run); automatic)
     size = keep_bounds(automatic->field(automatic->walls_within(0)));
   else
-    size = sizes.field(domain, &geometry, &meshes);
+    size = sizes.field(domain, &geometry, &meshes, run);
   model_source source{file.filename().string(), std::move(geometry), std::move(size), std::move(summary)};
   if (automatic && automatic->has_thin_walls())
     source.thin_walls = std::move(automatic);
@@ -218,10 +248,11 @@ std::optional<double> given_sizes::length(const box3& domain) const {
   return size_;
 }
 
-any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std::string* meshes) const {
+any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std::string* meshes,
+                              const any_executor& run) const {
   const auto uniform = length(domain);
   if (automatic_ && model)
-    return keep_bounds(points(*model, false)->field());
+    return keep_bounds(points(*model, false, run)->field());
   if (!has_file())
     return uniform ? keep_bounds(uniform_size(*uniform)) : any_sizing{};
   content_hash read;
@@ -231,7 +262,9 @@ any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std
     return load_background(mesh, array, read);
   };
   if (model)
-    options.size_from_model = [model](const automatic_options& o) { return automatic_size(*model, o); };
+    options.size_from_model = [model, &run](const automatic_options& o) {
+      return automatic_points(*model, o, divided_loop{run}).field();
+    };
   any_sizing sizes =
       keep_bounds(sizing::parse_sizing(text_, file_, options, std::filesystem::path(file_).parent_path()));
   if (meshes && read.value() != nothing)
@@ -239,7 +272,8 @@ any_sizing given_sizes::field(const box3& domain, const any_geometry* model, std
   return sizes;
 }
 
-std::optional<automatic_points> given_sizes::points(const any_geometry& model, bool in_thin_walls) const {
+std::optional<automatic_points> given_sizes::points(const any_geometry& model, bool in_thin_walls,
+                                                    const any_executor& run) const {
   if (!automatic_)
     return {};
   const double diagonal = model.bounds().diagonal();
@@ -249,7 +283,7 @@ std::optional<automatic_points> given_sizes::points(const any_geometry& model, b
     options.range.smallest = diagonal / 250;
     options.least_in_walls = in_thin_walls ? diagonal / 5000 : 0;
   }
-  return automatic_points(model, options);
+  return automatic_points(model, options, divided_loop{run});
 }
 
 any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {
@@ -266,7 +300,7 @@ any_geometry load_geometry(const std::string& file_or_name, const std::string& u
   return geometry_of_file(file_or_name, options, dimension).geometry;
 }
 
-model_source load_model(const model_options& options, int dimension) {
+model_source load_model(const model_options& options, int dimension, const any_executor& run) {
   if (!options.input.empty() && !options.model.empty())
     throw command_line_error("give a file or --model, not both");
   if (is_drawing(options.input) && (options.curvature || options.proximity || options.growth))
@@ -275,8 +309,8 @@ model_source load_model(const model_options& options, int dimension) {
   const given_sizes sizes(options);
   model_source source =
       options.input.empty()
-          ? builtin_source(chosen_name(builtin_model_names(), options.model, "--model"), sizes)
-          : file_source(options, sizes, dimension);
+          ? builtin_source(chosen_name(builtin_model_names(), options.model, "--model"), sizes, run)
+          : file_source(options, sizes, dimension, run);
   if (sizes.has_file())
     source.sizing = checksum_of_text(sizes.text());
   return source;

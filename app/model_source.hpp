@@ -7,6 +7,8 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/models/virtual/suppressed_detail.hpp"
+#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/serial.hpp"
 #include "dovetail/sizing/automatic.hpp"
 #include "dovetail/sizing/erased.hpp"
 
@@ -28,11 +30,12 @@ public:
   /// The file's field, the automatic one or the uniform one; empty when none is given. The first two may ask
   /// for sizes from the model, if there is one. `meshes` receives the checksum of the meshes that the file
   /// names. Throws `sizing_error` for a size that does not suit the domain.
-  any_sizing field(const box3& domain, const any_geometry* model = nullptr,
-                   std::string* meshes = nullptr) const;
+  any_sizing field(const box3& domain, const any_geometry* model = nullptr, std::string* meshes = nullptr,
+                   const any_executor& run = parallel::serial{}) const;
   /// What the automatic field is made of, sizes in thin walls included or not; empty when the sizes are not
   /// automatic.
-  std::optional<automatic_points> points(const any_geometry& model, bool in_thin_walls) const;
+  std::optional<automatic_points> points(const any_geometry& model, bool in_thin_walls,
+                                         const any_executor& run) const;
   bool has_file() const { return !file_.empty(); }
   bool is_automatic() const { return automatic_.has_value(); }
   const std::string& text() const { return text_; } ///< of the file, wherever it came from
@@ -64,8 +67,9 @@ struct model_source {
 
 /// Reads or builds the model and its sizing field. Throws `command_line_error` for options that contradict
 /// each other, and the library's errors for files and sizes that cannot be used. For elements of dimension 2,
-/// faces of a CAD file need not enclose solids.
-model_source load_model(const model_options& options, int dimension = 3);
+/// faces of a CAD file need not enclose solids. What takes long of automatic sizes is divided through `run`.
+model_source load_model(const model_options& options, int dimension = 3,
+                        const any_executor& run = parallel::serial{});
 
 /// The geometry alone of a file, or of the built-in model of that name; a file comes first. Throws the
 /// library's errors, and `input_error` when there is neither.

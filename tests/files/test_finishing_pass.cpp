@@ -106,15 +106,23 @@ TEST_CASE("hash, statistics and files are the same by every executor") {
 
 TEST_CASE("a piece whose quality is known is not measured again") {
   auto mesh = cubes.distributed();
-  const auto measured = io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}).quality;
+  const auto finished = [&] { return io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}); };
+  const auto measured = finished();
   for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
-    mesh.quality.push_back(measure_quality(mesh.load(static_cast<local_id>(p)).mesh));
-    mesh.quality.back().min_dihedral_deg = 0.5 + static_cast<double>(p);
+    mesh.quality.push_back({measure_quality(mesh.load(static_cast<local_id>(p)).mesh)});
+    mesh.quality.back().all.min_dihedral_deg = 0.5 + static_cast<double>(p);
   }
-  const auto known = io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}).quality;
-  CHECK(measured.min_dihedral_deg > 1);
-  CHECK(known.min_dihedral_deg == 0.5);
-  CHECK(known.min_dihedrals.bins == measured.min_dihedrals.bins);
+  const auto known = finished();
+  CHECK(measured.quality.min_dihedral_deg > 1);
+  CHECK(known.quality.min_dihedral_deg == 0.5);
+  CHECK(known.quality.min_dihedrals.bins == measured.quality.min_dihedrals.bins);
+  CHECK(encoded(known.at_interfaces) == encoded(measured.at_interfaces));
+
+  for (piece_quality& quality : mesh.quality)
+    quality.at_interfaces.emplace().rest.add(60);
+  const auto known_apart = finished().at_interfaces;
+  CHECK(known_apart.touching.elements == 0);
+  CHECK(known_apart.rest.elements == static_cast<std::int64_t>(mesh.counts.size()));
 }
 
 TEST_CASE("a piece is loaded once, whatever is written of it") {

@@ -1,6 +1,7 @@
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/mesh/quality_at_interfaces.hpp"
 #include "dovetail/mesh/skeleton_index.hpp"
+#include "dovetail/meshing/subdomain_surface.hpp"
 #include "files/distribute.hpp"
 #include "support/jittered_meshes.hpp"
 
@@ -27,7 +28,20 @@ quality_at_interfaces of_layers(const std::array<bool, 6>& is_second, double jit
   quality_at_interfaces found;
   for (std::size_t p = 0; p < cut.counts.size(); ++p) {
     const auto s = static_cast<local_id>(p);
-    found.merge(measure_at_interfaces(cut.load(s), cut.skeleton, sides[s]));
+    const auto piece = cut.load(s);
+    const auto rings = measure_at_interfaces(piece, cut.skeleton, sides[s]);
+    found.merge(rings);
+
+    const auto boundary = boundary_of_subdomain(cut.skeleton, sort_by_subdomain(cut.skeleton, 2), s);
+    std::vector<std::uint8_t> on_interface;
+    for (const local_id number : piece.skeleton_points)
+      for (std::size_t v = 0; v < boundary.skeleton_points.size(); ++v)
+        if (boundary.skeleton_points[v] == number)
+          on_interface.push_back(boundary.on_interface[v]);
+    CHECK(on_interface.size() == piece.skeleton_points.size());
+    const auto at_once = measure_piece(piece.mesh, on_interface);
+    CHECK(encoded(*at_once.at_interfaces) == encoded(rings));
+    CHECK(encoded(at_once.all) == encoded(measure_quality(piece.mesh)));
   }
   const auto whole = measure_quality(mesh);
   CHECK(found.touching.elements + found.next_ring.elements + found.rest.elements == whole.elements);

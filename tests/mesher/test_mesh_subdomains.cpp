@@ -137,7 +137,7 @@ TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points"
     CHECK_NOTHROW(check_mesher_result(input.boundary, piece.mesh));
     CHECK(summary.counts.elements == static_cast<global_id>(input.boundary.boundary.elements.size()));
     CHECK(summary.counts.inner_points == 1);
-    CHECK(summary.quality.elements == summary.counts.elements);
+    CHECK(summary.quality.all.elements == summary.counts.elements);
     CHECK(summary.summary.children.at(1).name == "improver");
     const auto kept = options.store->value<finished_piece<3>>(result.keys[s]).summary.summary;
     CHECK(kept.children.at(1).get("frozen points") == static_cast<double>(input.skeleton_points.size()));

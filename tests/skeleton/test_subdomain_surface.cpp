@@ -30,3 +30,15 @@ TEST_CASE("The boundary of a subsurface does not depend on how those beside it a
   CHECK(one.boundary.elements == two.boundary.elements);
   CHECK(one.boundary.points == two.boundary.points);
 }
+
+TEST_CASE("Points on interfaces are those of sides with another subdomain behind them") {
+  auto skeleton = line_between(0, 1, false);
+  const auto marks = [&] { // of points 0 to 3
+    return boundary_of_subdomain(skeleton, sort_by_subdomain(skeleton, 2), 0).on_interface;
+  };
+  CHECK(marks() == std::vector<std::uint8_t>{1, 1, 1, 1});
+  skeleton.subdomains = {{0, 1}, {0, 1}, {0, no_id}};
+  CHECK(marks() == std::vector<std::uint8_t>{1, 0, 1, 1});
+  skeleton.subdomains = {{0, 1}, {0, 0}, {0, no_id}};
+  CHECK(marks() == std::vector<std::uint8_t>{1, 0, 1, 0});
+}

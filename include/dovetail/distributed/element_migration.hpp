@@ -141,10 +141,10 @@ migrated_elements<D> migrate_elements(const distributed_simplicial_mesh<D>& mesh
         const piece_counts counts{
             piece.material, static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size()),
             static_cast<global_id>(piece.mesh.elements.size())};
-        return std::tuple(hash, counts, measure_quality(piece.mesh),
+        return std::tuple(hash, counts, piece_quality{measure_quality(piece.mesh)},
                           found ? kept_value{key, {}} : tasks.keep(key, piece));
       },
-      [&](std::size_t n, std::tuple<io::mesh_hasher, piece_counts, quality_statistics, kept_value> moved) {
+      [&](std::size_t n, std::tuple<io::mesh_hasher, piece_counts, piece_quality, kept_value> moved) {
         after.merge(std::get<0>(moved));
         to.counts[n] = std::get<1>(moved);
         to.quality[n] = std::get<2>(moved);

@@ -42,8 +42,8 @@ inline void improve_inside(mesh_piece& piece, const fine_skeleton& skeleton, std
 
 DOVETAIL_INLINE quality_statistics quality_of_whole(const distributed_mesh& mesh) {
   quality_statistics whole;
-  for (const quality_statistics& piece : mesh.quality)
-    whole.merge(piece, whole.elements);
+  for (const piece_quality& piece : mesh.quality)
+    whole.merge(piece.all, whole.elements);
   return whole;
 }
 
@@ -92,10 +92,10 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
         of_piece.inner_points =
             static_cast<global_id>(piece.mesh.points.size() - piece.skeleton_points.size());
         key_maker make;
-        return std::tuple(seconds, of_piece, measure_quality(piece.mesh),
+        return std::tuple(seconds, of_piece, piece_quality{measure_quality(piece.mesh)},
                           tasks.keep_by_content(make(static_cast<std::int64_t>(p)), piece));
       },
-      [&](std::size_t p, std::tuple<double, piece_counts, quality_statistics, kept_value> improved) {
+      [&](std::size_t p, std::tuple<double, piece_counts, piece_quality, kept_value> improved) {
         counts.improver_seconds += std::get<0>(improved);
         result.mesh.counts[p] = std::get<1>(improved);
         result.mesh.quality[p] = std::get<2>(improved);

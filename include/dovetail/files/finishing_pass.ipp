@@ -289,11 +289,11 @@ private:
       if (!faults.valid())
         throw mesh_error("the mesh does not conform: " + faults.text());
       const auto at = static_cast<std::size_t>(p);
-      const auto quality = at < mesh_.quality.size() ? mesh_.quality[at] : measure_quality(piece.mesh);
-      done.quality.merge(quality, numbers_.first_element[at]);
-      done.at_interfaces.merge(measure_at_interfaces(piece, mesh_.skeleton, sides_[p]));
+      const piece_quality quality = quality_of(p, piece);
+      done.quality.merge(quality.all, numbers_.first_element[at]);
+      done.at_interfaces.merge(*quality.at_interfaces);
       if constexpr (D == 3)
-        if (quality.min_dihedrals.below(low_dihedral_deg) > 0)
+        if (quality.all.min_dihedrals.below(low_dihedral_deg) > 0)
           done.poor.merge(find_poor_elements(piece, mesh_.skeleton, sides_[p]));
       hash_piece(done.hash, piece, numbers_);
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
@@ -312,6 +312,15 @@ private:
     if (release_)
       give_up(range, std::move(note), done);
     return done;
+  }
+  /// As it was measured, and what was not.
+  piece_quality quality_of(local_id p, const simplicial_piece<D>& piece) const {
+    const auto at = static_cast<std::size_t>(p);
+    piece_quality quality =
+        at < mesh_.quality.size() ? mesh_.quality[at] : piece_quality{measure_quality(piece.mesh)};
+    if (!quality.at_interfaces)
+      quality.at_interfaces = measure_at_interfaces(piece, mesh_.skeleton, sides_[p]);
+    return quality;
   }
   void give_up(std::size_t range, piece_note note, const finished_pieces& done) const {
     note.text = encoded(numbered_pieces{numbering_, done});

@@ -11,7 +11,7 @@
 #include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/core/shared_array.hpp"
-#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/piece_quality.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <algorithm>
@@ -155,7 +155,7 @@ template <int D>
 struct distributed_simplicial_mesh {
   simplicial_skeleton<D> skeleton;                   ///< what is between the pieces
   std::vector<piece_counts> counts;                  ///< by piece
-  std::vector<quality_statistics> quality = {};      ///< of each piece; empty where nobody has measured it
+  std::vector<piece_quality> quality = {};           ///< of each piece; empty where nobody has measured it
   std::function<simplicial_piece<D>(local_id)> load; ///< loads piece p; pure
   /// Gives up the storage of piece p, which is not loaded again. A resumed run takes the files of the note
   /// for the piece; without any, it makes the piece again. May be called in a worker; empty: not possible.

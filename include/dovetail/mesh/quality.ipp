@@ -129,13 +129,12 @@ private:
   double sine_squared_ = 1;
 };
 
-} // namespace detail
-
-template <int D>
-quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
+/// Measures all elements, and calls `use(element, smallest_angle)` for each.
+template <int D, class Use>
+quality_statistics measure_each(const simplicial_mesh<D>& mesh, const Use& use) {
   quality_statistics statistics;
   statistics.elements = static_cast<std::int64_t>(mesh.elements.size());
-  detail::smallest_face_angle face_angle;
+  smallest_face_angle face_angle;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
     const auto at = corners(span_of(mesh.points), mesh.elements[e]);
     std::array<double, 2> extremes;
@@ -143,8 +142,8 @@ quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
       extremes = extreme_dihedral_angles(at);
       face_angle.include(at);
     } else {
-      const detail::tetrahedron_parts parts(at);
-      extremes = detail::extremes_of(parts);
+      const tetrahedron_parts parts(at);
+      extremes = extremes_of(parts);
       face_angle.include(at, parts);
     }
     const auto [smallest, largest] = extremes;
@@ -156,9 +155,17 @@ quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
     statistics.sum_of_min_dihedral_deg += smallest;
     statistics.min_dihedrals.add(smallest);
     statistics.max_dihedrals.add(largest);
+    use(e, smallest);
   }
   statistics.min_face_deg = face_angle.degrees();
   return statistics;
+}
+
+} // namespace detail
+
+template <int D>
+quality_statistics measure_quality(const simplicial_mesh<D>& mesh) {
+  return detail::measure_each(mesh, [](std::size_t, double) {});
 }
 
 #ifdef DOVETAIL_COMPILED

@@ -4,35 +4,17 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/quality.ipp"
 #include "dovetail/mesh/quality_at_interfaces.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
-
-DOVETAIL_INLINE void ring_quality::add(double degrees) {
-  ++elements;
-  min_dihedral_deg = std::min(min_dihedral_deg, degrees);
-  sum_of_min_dihedral_deg += degrees;
-  min_dihedrals.add(degrees);
-}
-
-DOVETAIL_INLINE void ring_quality::merge(const ring_quality& other) {
-  elements += other.elements;
-  min_dihedral_deg = std::min(min_dihedral_deg, other.min_dihedral_deg);
-  sum_of_min_dihedral_deg += other.sum_of_min_dihedral_deg;
-  min_dihedrals.merge(other.min_dihedrals);
-}
-
-DOVETAIL_INLINE void quality_at_interfaces::merge(const quality_at_interfaces& other) {
-  touching.merge(other.touching);
-  next_ring.merge(other.next_ring);
-  rest.merge(other.rest);
-}
 
 namespace detail {
 
@@ -60,26 +42,59 @@ std::vector<std::uint8_t> points_on_interfaces(const simplicial_piece<D>& piece,
 
 } // namespace detail
 
+namespace detail {
+
+/// The elements of a piece by their distance from its interfaces.
+template <int D>
+class interface_rings {
+public:
+  interface_rings(const simplicial_mesh<D>& mesh, std::vector<std::uint8_t> on_interface)
+      : mesh_(mesh), on_interface_(std::move(on_interface)), reached_(on_interface_) {
+    for (const simplex<D>& element : mesh.elements)
+      if (has_one_in(element, on_interface_))
+        for (const local_id v : element)
+          reached_[v] = 1;
+  }
+
+  void add(std::size_t element, double smallest_angle) {
+    const simplex<D>& vertices = mesh_.elements[element];
+    ring_quality& ring = has_one_in(vertices, on_interface_) ? found_.touching
+                         : has_one_in(vertices, reached_)    ? found_.next_ring
+                                                             : found_.rest;
+    ring.add(smallest_angle);
+  }
+
+  const quality_at_interfaces& found() const { return found_; }
+
+private:
+  static bool has_one_in(const simplex<D>& element, const std::vector<std::uint8_t>& marked) {
+    return std::any_of(element.begin(), element.end(), [&](local_id v) { return marked[v] != 0; });
+  }
+
+  const simplicial_mesh<D>& mesh_;
+  std::vector<std::uint8_t> on_interface_; ///< per point
+  std::vector<std::uint8_t> reached_;      ///< per point: of an element that touches
+  quality_at_interfaces found_;
+};
+
+} // namespace detail
+
 template <int D>
 quality_at_interfaces measure_at_interfaces(const simplicial_mesh<D>& mesh,
                                             const std::vector<std::uint8_t>& on_interface) {
-  const auto& elements = mesh.elements;
-  const auto has_one_in = [](const simplex<D>& element, const std::vector<std::uint8_t>& marked) {
-    return std::any_of(element.begin(), element.end(), [&](local_id v) { return marked[v] != 0; });
-  };
-  auto reached = on_interface; // the points of the elements that touch
-  for (const simplex<D>& element : elements)
-    if (has_one_in(element, on_interface))
-      for (const local_id v : element)
-        reached[v] = 1;
-  quality_at_interfaces found;
-  for (const simplex<D>& element : elements) {
-    ring_quality& ring = has_one_in(element, on_interface) ? found.touching
-                         : has_one_in(element, reached)    ? found.next_ring
-                                                           : found.rest;
-    ring.add(extreme_dihedral_angles(corners(span_of(mesh.points), element))[0]);
-  }
-  return found;
+  detail::interface_rings<D> rings(mesh, on_interface);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    rings.add(e, extreme_dihedral_angles(corners(span_of(mesh.points), mesh.elements[e]))[0]);
+  return rings.found();
+}
+
+template <int D>
+piece_quality measure_piece(const simplicial_mesh<D>& mesh, std::vector<std::uint8_t> on_interface) {
+  on_interface.resize(mesh.points.size(), 0);
+  detail::interface_rings<D> rings(mesh, std::move(on_interface));
+  auto all =
+      detail::measure_each(mesh, [&](std::size_t e, double smallest_angle) { rings.add(e, smallest_angle); });
+  return {std::move(all), rings.found()};
 }
 
 template <int D>
@@ -90,6 +105,10 @@ quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
 }
 
 #ifdef DOVETAIL_COMPILED
+template piece_quality measure_piece<2>(const simplicial_mesh<2>& mesh,
+                                        std::vector<std::uint8_t> on_interface);
+template piece_quality measure_piece<3>(const simplicial_mesh<3>& mesh,
+                                        std::vector<std::uint8_t> on_interface);
 template quality_at_interfaces measure_at_interfaces<2>(const simplicial_mesh<2>& mesh,
                                                         const std::vector<std::uint8_t>& on_interface);
 template quality_at_interfaces measure_at_interfaces<3>(const simplicial_mesh<3>& mesh,

@@ -151,7 +151,7 @@ private:
     global_id first_element = 0;
     report deviation;
     for (const piece_summary& piece : result_.pieces) {
-      result_.quality.merge(piece.quality, first_element);
+      result_.quality.merge(piece.quality.all, first_element);
       first_element += piece.counts.elements;
       counts_.elements += piece.counts.elements;
       counts_.inner_points += piece.counts.inner_points;

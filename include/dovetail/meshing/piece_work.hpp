@@ -10,13 +10,14 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
-#include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/quality_at_interfaces.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
+#include <cstdint>
 #include <exception>
 #include <new>
 #include <string>
@@ -28,8 +29,9 @@ namespace dovetail {
 /// What a mesher needs of one subdomain.
 template <int D>
 struct piece_input {
-  mesher_input<D> boundary;              ///< as a mesher takes it
-  std::vector<local_id> skeleton_points; ///< per boundary point: its index in the fine skeleton
+  mesher_input<D> boundary;                    ///< as a mesher takes it
+  std::vector<local_id> skeleton_points;       ///< per boundary point: its index in the fine skeleton
+  std::vector<std::uint8_t> on_interface = {}; ///< per boundary point; nothing where there are none
   content_key context = {}; ///< of what else the piece is a function of: the chords it must not have (D = 2)
 };
 
@@ -45,9 +47,9 @@ struct attempt_counts {
 
 /// What is known of a finished piece without loading it.
 struct piece_summary {
-  piece_counts counts;        ///< how large it is
-  quality_statistics quality; ///< of its elements
-  report summary;             ///< `attempt_counts`; children "mesher" and "improver"
+  piece_counts counts;   ///< how large it is
+  piece_quality quality; ///< of its elements
+  report summary;        ///< `attempt_counts`; children "mesher" and "improver"
 
   using fields = field_list<&piece_summary::counts, &piece_summary::quality, &piece_summary::summary>;
 };
@@ -73,7 +75,7 @@ template <int D>
 content_key key_of(const piece_input<D>& input, content_key sizes) {
   key_maker make(sizes, input.context);
   make(std::int64_t{D})(std::int64_t{input.boundary.material})(input.boundary.boundary.points)(
-      input.boundary.boundary.elements);
+      input.boundary.boundary.elements)(input.on_interface);
   if constexpr (D == 2)
     for (const surface_region& region : input.boundary.regions) {
       const patch_boundary& b = region.boundary;
@@ -179,7 +181,7 @@ finished_piece<D> make_piece(local_id subdomain, const piece_input<D>& input, co
   summary.counts.elements = static_cast<global_id>(made.mesh.elements.size());
   summary.counts.inner_points =
       static_cast<global_id>(made.mesh.points.size() - input.boundary.boundary.points.size());
-  summary.quality = measure_quality(made.mesh);
+  summary.quality = measure_piece(made.mesh, input.on_interface);
   summary.summary.seconds = clock.seconds();
   return {std::move(summary), {no_id, input.boundary.material, std::move(made.mesh), {}}};
 }

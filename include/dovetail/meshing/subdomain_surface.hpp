@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,8 +17,9 @@ namespace dovetail {
 /// The closed boundary of one subdomain on points of its own, oriented outwards.
 template <int D>
 struct subdomain_sides {
-  simplicial_mesh<D - 1> boundary;       ///< points and oriented sides
-  std::vector<local_id> skeleton_points; ///< per point: its number in the skeleton, growing
+  simplicial_mesh<D - 1> boundary;        ///< points and oriented sides
+  std::vector<local_id> skeleton_points;  ///< per point: its number in the skeleton, growing
+  std::vector<std::uint8_t> on_interface; ///< per point: not 0 on a side with another subdomain behind it
 };
 
 /// The points of the skeleton on the boundary of one subdomain, growing. O(n log n) in its sides.
@@ -53,9 +55,16 @@ subdomain_sides<D> boundary_of_subdomain(const simplicial_skeleton<D>& skeleton,
       points_of_subdomain<D>(span_of(skeleton.sides), sorted, subdomain);
   for (const local_id number : numbers)
     made.boundary.points.push_back(skeleton.points[number]);
-  for (simplex<D - 1>& side : made.boundary.elements)
-    for (local_id& v : side)
+  made.on_interface.assign(numbers.size(), 0);
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const auto [behind, front] = skeleton.subdomains[sides[k]];
+    const bool is_interface = front != no_id && front != behind;
+    for (local_id& v : made.boundary.elements[k]) {
       v = static_cast<local_id>(std::lower_bound(numbers.begin(), numbers.end(), v) - numbers.begin());
+      if (is_interface)
+        made.on_interface[v] = 1;
+    }
+  }
   if constexpr (D ==
                 2) // the skeleton's order along a line hangs on how the subdomains beside it are numbered
     sort_all(made.boundary.elements);

@@ -26,6 +26,7 @@ DOVETAIL_INLINE piece_source<3> source_of_pieces(const any_geometry&, const simp
     piece_input<3> input;
     input.boundary = {std::move(surface.boundary), skeleton.material_of_subdomain[s]};
     input.skeleton_points = std::move(surface.skeleton_points);
+    input.on_interface = std::move(surface.on_interface);
     return input;
   };
 }
@@ -64,6 +65,7 @@ source_of_pieces(const any_geometry& model, const simplicial_background<2>& mesh
     input.context = rule->key((*regions)[s], lines.skeleton_points);
     input.boundary.boundary = std::move(lines.boundary);
     input.skeleton_points = std::move(lines.skeleton_points);
+    input.on_interface = std::move(lines.on_interface);
     return input;
   };
 }

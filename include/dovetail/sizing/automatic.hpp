@@ -36,8 +36,9 @@ public:
   /// Complexity: that of `curvature_size` and `proximity_size`.
   /// \param model the model whose faces are sampled
   /// \param options elements per circle and per gap, and the range of sizes
-  template <geometry_model G>
-  automatic_points(const G& model, const automatic_options& options)
+  /// \param loop carries out the loops over samples (`sizing::undivided_loop`)
+  template <geometry_model G, class Loop = sizing::undivided_loop>
+  automatic_points(const G& model, const automatic_options& options, const Loop& loop = {})
       : bounds_(model.bounds()), range_(sizing::range_for(bounds_, options.range)) {
     if (options.elements_per_circle != 0)
       points_ = sizing::curvature_points(model, options.elements_per_circle, range_);
@@ -47,7 +48,7 @@ public:
                                     .least_in_walls = options.least_in_walls,
                                     .inside = options.inside,
                                     .outside = options.outside},
-                                   range_));
+                                   range_, loop));
     }
   }
 

@@ -111,15 +111,15 @@ struct gap_point : sized_point {
   double area = 0; ///< of one of the two faces
 };
 
-/// Sizes of gap / elements at samples that are `spacing(sample)` apart.
-template <geometry_model G, class Spacing>
-std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& options,
-                                       const model_size_range& range, const Spacing& spacing) {
+/// Sizes of gap / elements at some of the samples.
+template <geometry_model G>
+std::vector<gap_point> gaps_in_range(const G& model, const proximity_options& options,
+                                     const model_size_range& range, const facing_search& search,
+                                     const meeting_faces& meet, std::size_t begin, std::size_t end) {
   const double reach = options.elements * range.largest;
-  const facing_search search(sample_surface(model, spacing, {.per_face = 20000}), model.topology());
-  const meeting_faces meet(model.topology());
   std::vector<gap_point> points;
-  for (const surface_sample& s : search.samples()) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const surface_sample& s = search.samples()[i];
     const auto& solids = model.topology().faces[s.face].solids;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
       if (!(solids[side] == no_id ? options.outside : options.inside))
@@ -139,23 +139,46 @@ std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& 
   return points;
 }
 
+/// How a loop over many samples is carried out: `loop(model, count, work)` returns what `work(model, begin,
+/// end)` does for all from 0 to `count`. Others may divide it, with a model for each range, and join the
+/// vectors in order.
+struct undivided_loop {
+  /// All at once.
+  template <geometry_model G, class Work>
+  auto operator()(const G& model, std::size_t count, const Work& work) const {
+    return work(model, std::size_t{0}, count);
+  }
+};
+
+/// Sizes of gap / elements at samples that are `spacing(sample)` apart.
+template <geometry_model G, class Spacing, class Loop>
+std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& options,
+                                       const model_size_range& range, const Spacing& spacing,
+                                       const Loop& loop) {
+  const facing_search search(sample_surface(model, spacing, {.per_face = 20000}), model.topology());
+  const meeting_faces meet(model.topology());
+  return loop(model, search.samples().size(), [&](const G& own, std::size_t begin, std::size_t end) {
+    return gaps_in_range(own, options, range, search, meet, begin, end);
+  });
+}
+
 /// Sizes of gap / elements on both faces of every wall or gap that asks for less than the largest size. What
 /// one pass finds tells the next how near samples have to be: the last are at most two sizes apart.
-template <geometry_model G>
+template <geometry_model G, class Loop = undivided_loop>
 std::vector<gap_point> proximity_points(const G& model, const proximity_options& options,
-                                        const model_size_range& range) {
+                                        const model_size_range& range, const Loop& loop = {}) {
   checked_size(options.elements, "the number of elements across");
   checked_length(options.least_in_walls, "the least size in walls");
   constexpr int passes = 3;
   constexpr double sizes_apart = 2;
   const auto even = [&](const surface_sample&) { return range.largest; };
-  auto points = gaps_at_samples(model, options, range, even);
+  auto points = gaps_at_samples(model, options, range, even, loop);
   for (int pass = 1; pass < passes && !points.empty(); ++pass) {
     const point_sizes found({points.begin(), points.end()}, range.growth, range.largest);
     const auto by_size = [&](const surface_sample& s) {
       return std::min(range.largest, sizes_apart * found(s.point));
     };
-    points = gaps_at_samples(model, options, range, by_size);
+    points = gaps_at_samples(model, options, range, by_size, loop);
   }
   return points;
 }
