@@ -23,6 +23,8 @@ protected:
 
   /// At a point of a leaf.
   double interpolated(std::size_t leaf, vec3 p) const;
+  /// The same of a leaf's box and corners.
+  double interpolated(const box3& box, const corner_ids& c, vec3 p) const;
 
   /// The least value in the part of the box that is in the octree, exactly: in a box of a leaf it is at a
   /// corner of it. Infinite when there is none. Visits what may hold less than what was found; after

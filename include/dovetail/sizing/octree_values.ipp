@@ -14,11 +14,13 @@
 namespace dovetail::sizing {
 
 DOVETAIL_INLINE double octree_values::interpolated(std::size_t leaf, vec3 p) const {
-  const box3 box = tree_.box(leaf);
+  return interpolated(tree_.box(leaf), corners_[tree_.leaf_index(leaf)], p);
+}
+
+DOVETAIL_INLINE double octree_values::interpolated(const box3& box, const corner_ids& c, vec3 p) const {
   const vec3 extent = box.upper - box.lower;
   const vec3 t{(p.x - box.lower.x) / extent.x, (p.y - box.lower.y) / extent.y,
                (p.z - box.lower.z) / extent.z};
-  const corner_ids& c = corners_[tree_.leaf_index(leaf)];
   const auto along_x = [&](std::size_t k) {
     return values_[c[k]] + t.x * (values_[c[k + 1]] - values_[c[k]]);
   };
@@ -61,9 +63,10 @@ DOVETAIL_INLINE double octree_values::least_of_leaf_in(std::size_t leaf, const b
     part.lower[k] = std::max(whole.lower[k], box.lower[k]);
     part.upper[k] = std::min(whole.upper[k], box.upper[k]);
   }
+  const corner_ids& corners = corners_[tree_.leaf_index(leaf)];
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 8; ++k)
-    least = std::min(least, interpolated(leaf, corner_of(part, k)));
+    least = std::min(least, interpolated(whole, corners, corner_of(part, k)));
   return least;
 }
 
