@@ -7,7 +7,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
 
 using namespace dovetail;
 
@@ -118,4 +123,93 @@ TEST_CASE("a request to stop ends the matching") {
   two_faces faces({{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}});
   faces.on_progress.stop_requested = [] { return true; };
   CHECK_THROWS_AS(faces.remesh(30), cancelled);
+}
+
+namespace {
+
+/// Interface faces on all triangles of a grid of n x n cells, without points inside their lines.
+coarse_skeleton grid_of_faces(local_id n) {
+  coarse_skeleton grid;
+  const auto vertex = [n](local_id i, local_id j) { return i * (n + 1) + j; };
+  std::set<simplex<1>> lines;
+  const auto face = [&](simplex<2> vertices) {
+    grid.faces.push_back({vertices, {0, 1}});
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2)})
+      lines.insert(sorted_vertices(
+          simplex<1>{vertices[static_cast<std::size_t>(a)], vertices[static_cast<std::size_t>(b)]}));
+  };
+  for (local_id i = 0; i < n; ++i)
+    for (local_id j = 0; j < n; ++j) {
+      face({vertex(i, j), vertex(i, j + 1), vertex(i + 1, j + 1)});
+      face({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+    }
+  for (const simplex<1>& line : lines)
+    grid.lines.push_back({line, {3, no_id}, {}, {}});
+  return grid;
+}
+
+} // namespace
+
+TEST_CASE("faces that look at each other's lines are mended in their order, the others side by side") {
+  const coarse_skeleton grid = grid_of_faces(40);
+  const std::vector<vec3> points(41 * 41);
+  const std::vector<fine_line> lines(grid.lines.size());
+  const refined_sizing size(unit_size);
+  const auto faces_of_line = faces_of_lines(grid);
+  const detail::matched_skeleton skeleton(points, grid, lines, size, 30, faces_of_line);
+  std::mt19937 random(1);
+  for (const unsigned of_hundred : {2U, 20U, 100U}) { // apart, in groups, all in one
+    std::vector<local_id> wanted;
+    for (std::size_t f = 0; f < grid.faces.size(); ++f)
+      if (random() % 100 < of_hundred)
+        wanted.push_back(static_cast<local_id>(f));
+    const auto passes = detail::matching_passes(skeleton, wanted).passes();
+    struct turn {
+      std::size_t pass, group, place;
+    };
+    std::map<local_id, turn> turns;
+    std::size_t groups = 0;
+    for (std::size_t pass = 0; pass < passes.size(); ++pass)
+      for (const auto& group : passes[pass]) {
+        for (std::size_t k = 0; k < group.size(); ++k)
+          turns[group[k]] = {pass, groups, k};
+        CHECK(group.size() <= 32);
+        ++groups;
+      }
+    CHECK(turns.size() == wanted.size());
+    CHECK((passes.size() > 1) == (of_hundred == 100));
+    CHECK(groups > wanted.size() / 32);
+
+    bool in_order = true;
+    for (const local_id f : wanted) {
+      std::set<local_id> seen;
+      skeleton.for_each_beside(f, [&](local_id other) {
+        for (const local_id line : skeleton.sides(other))
+          seen.insert(line);
+      });
+      for (const local_id line : seen)
+        for (const local_id other : skeleton.faces_at(line)) // it changes what f looks at
+          if (const auto its = turns.find(other); its != turns.end() && other != f) {
+            const auto& [first, second] = std::minmax(f, other);
+            const turn &a = turns[first], &b = turns[second];
+            in_order = in_order && (a.pass < b.pass || (a.group == b.group && a.place < b.place));
+          }
+    }
+    CHECK(in_order);
+  }
+}
+
+TEST_CASE("a change of lines is seen by its own skeleton alone") {
+  two_faces faces({{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}});
+  const std::vector<fine_line> lines(faces.skeleton.lines.size());
+  const refined_sizing size(unit_size);
+  const auto faces_of_line = faces_of_lines(faces.skeleton);
+  const detail::matched_skeleton skeleton(faces.points, faces.skeleton, lines, size, 30, faces_of_line);
+  detail::matched_skeleton changed = skeleton;
+  changed.change(no_lines_on_it, 0, {line_segments{3, 0}, {}, {}});
+  const local_id line = skeleton.sides(0)[0];
+  CHECK(changed.line(line).segments == 3);
+  CHECK(changed.points_of(line).size() == 2);
+  CHECK(skeleton.line(line).segments == 0);
+  CHECK(skeleton.points_of(line).empty());
 }
