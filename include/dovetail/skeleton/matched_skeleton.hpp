@@ -142,25 +142,20 @@ private:
     return groups;
   }
 
-  /// A face comes behind all before it that change what it looks at, or look at what it changes.
+  /// A face comes behind all before it that change what it looks at; these are those that look at what it
+  /// changes.
   void add_levels(const std::vector<local_id>& faces) {
-    std::unordered_map<local_id, std::size_t> changed, seen; // per line: the first level that is free of it
+    std::unordered_map<local_id, std::size_t> free_from; // per line that is changed: the first level behind
     for (const local_id f : faces) {
       std::size_t level = 0;
-      const auto lines = skeleton_.sides(f);
       skeleton_.for_each_beside(f, [&](local_id other) {
         for (const local_id line : skeleton_.sides(other))
-          level = std::max(level, changed[line]);
+          if (const auto found = free_from.find(line); found != free_from.end())
+            level = std::max(level, found->second);
       });
-      for (const local_id line : lines)
-        level = std::max(level, seen[line]);
+      for (const local_id line : skeleton_.sides(f))
+        free_from[line] = level + 1;
       put(level, {f});
-      skeleton_.for_each_beside(f, [&](local_id other) {
-        for (const local_id line : skeleton_.sides(other))
-          seen[line] = std::max(seen[line], level + 1);
-      });
-      for (const local_id line : lines)
-        changed[line] = level + 1;
     }
   }
 
