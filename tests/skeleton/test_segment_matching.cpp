@@ -155,8 +155,9 @@ TEST_CASE("faces that look at each other's lines are mended in their order, the 
   const std::vector<vec3> points(41 * 41);
   const std::vector<fine_line> lines(grid.lines.size());
   const refined_sizing size(unit_size);
-  const auto faces_of_line = faces_of_lines(grid);
-  const detail::matched_skeleton skeleton(points, grid, lines, size, 30, faces_of_line);
+  const auto lines_of_face = lines_of_faces(grid);
+  const auto faces_of_line = faces_of_lines(lines_of_face, lines.size());
+  const detail::matched_skeleton skeleton(points, grid, lines, size, 30, lines_of_face, faces_of_line);
   std::mt19937 random(1);
   for (const unsigned of_hundred : {2U, 20U, 100U}) { // apart, in groups, all in one
     std::vector<local_id> wanted;
@@ -203,8 +204,10 @@ TEST_CASE("a change of lines is seen by its own skeleton alone") {
   two_faces faces({{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}});
   const std::vector<fine_line> lines(faces.skeleton.lines.size());
   const refined_sizing size(unit_size);
-  const auto faces_of_line = faces_of_lines(faces.skeleton);
-  const detail::matched_skeleton skeleton(faces.points, faces.skeleton, lines, size, 30, faces_of_line);
+  const auto lines_of_face = lines_of_faces(faces.skeleton);
+  const auto faces_of_line = faces_of_lines(lines_of_face, lines.size());
+  const detail::matched_skeleton skeleton(faces.points, faces.skeleton, lines, size, 30, lines_of_face,
+                                          faces_of_line);
   detail::matched_skeleton changed = skeleton;
   changed.change(no_lines_on_it, 0, {line_segments{3, 0}, {}, {}});
   const local_id line = skeleton.sides(0)[0];

@@ -56,7 +56,7 @@ DOVETAIL_INLINE suppression_plan plan_for_failed_patches(const coarse_skeleton& 
                                                          const std::vector<patch_failure>& failures) {
   suppression_plan plan;
   std::set<std::array<local_id, 2>> pairs;
-  const auto faces_at = faces_of_lines(coarse);
+  const auto faces_at = faces_of_lines(lines_of_faces(coarse), coarse.lines.size());
   for (const patch_failure& failure : failures) {
     if (!failure.folded.empty() && failure.region != no_id) {
       const local_id face = coarse.regions[failure.region].cad_face;

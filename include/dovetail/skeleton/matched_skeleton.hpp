@@ -28,9 +28,10 @@ class matched_skeleton {
 public:
   matched_skeleton(std::span<const vec3> coarse_points, const coarse_skeleton& coarse,
                    std::span<const fine_line> lines, const refined_sizing& size, double threshold,
+                   std::span<const std::array<local_id, 3>> lines_of_face,
                    const compressed_rows<local_id>& faces_of_line)
       : coarse_points_(coarse_points), coarse_(coarse), lines_(lines), size_(size), threshold_(threshold),
-        faces_of_line_(faces_of_line) {}
+        lines_of_face_(lines_of_face), faces_of_line_(faces_of_line) {}
 
   double threshold() const { return threshold_; }
   std::span<const vec3> coarse_points() const { return coarse_points_; }
@@ -48,7 +49,7 @@ public:
   any_sizing size_near(local_id l) const { return size_.near(place_of(line(l), coarse_points_)); }
 
   simplex<2> key(local_id face) const { return key_order(coarse_.faces[face]); }
-  std::array<local_id, 3> sides(local_id face) const { return lines_of(coarse_.faces[face], coarse_.lines); }
+  const std::array<local_id, 3>& sides(local_id face) const { return lines_of_face_[face]; }
   std::array<vec3, 3> corners(local_id face) const {
     const simplex<2> vertices = key(face);
     return {point(vertices[0]), point(vertices[1]), point(vertices[2])};
@@ -65,7 +66,7 @@ public:
 
   /// Gives the lines of a face the segments that were chosen for it.
   void change(const any_geometry& model, local_id face, const face_segments& chosen) {
-    const std::array<local_id, 3> its = sides(face);
+    const auto& its = sides(face);
     for (std::size_t i = 0; i < 3; ++i)
       if (chosen[i].count != 0) {
         skeleton_line changed = line(its[i]);
@@ -86,6 +87,7 @@ private:
   std::span<const fine_line> lines_;
   const refined_sizing& size_;
   double threshold_;
+  std::span<const std::array<local_id, 3>> lines_of_face_;
   const compressed_rows<local_id>& faces_of_line_;
   std::map<local_id, changed_line> changed_;
 };

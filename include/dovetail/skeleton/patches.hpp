@@ -13,6 +13,7 @@
 #include "dovetail/skeleton/fine_lines.hpp"
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -41,8 +42,12 @@ struct interface_face_patch {
 /// The lines of an interface face: of each side of its key order, from corner i + 1 to corner i + 2.
 std::array<local_id, 3> lines_of(const skeleton_face& face, const std::vector<skeleton_line>& lines);
 
-/// The interface faces at each line, growing. O(n log n).
-compressed_rows<local_id> faces_of_lines(const coarse_skeleton& skeleton);
+/// The lines of all interface faces. O(n log n).
+std::vector<std::array<local_id, 3>> lines_of_faces(const coarse_skeleton& skeleton);
+
+/// The interface faces at each of so many lines, growing, by the lines of all faces. Linear.
+compressed_rows<local_id> faces_of_lines(std::span<const std::array<local_id, 3>> lines_of_face,
+                                         std::size_t lines);
 
 /// The boundary of an interface face without its parameters, which are a function of its corners and points.
 patch_boundary interface_outline(const skeleton_face& face, const numbered_lines& lines);

@@ -181,10 +181,19 @@ DOVETAIL_INLINE std::array<local_id, 3> lines_of(const skeleton_face& face,
           find_line(lines, key[0], key[1])};
 }
 
-DOVETAIL_INLINE compressed_rows<local_id> faces_of_lines(const coarse_skeleton& skeleton) {
-  return sorted_into_rows<local_id>(skeleton.lines.size(), [&](const auto& put) {
-    for (std::size_t f = 0; f < skeleton.faces.size(); ++f)
-      for (const local_id line : lines_of(skeleton.faces[f], skeleton.lines))
+DOVETAIL_INLINE std::vector<std::array<local_id, 3>> lines_of_faces(const coarse_skeleton& skeleton) {
+  std::vector<std::array<local_id, 3>> lines;
+  lines.reserve(skeleton.faces.size());
+  for (const skeleton_face& face : skeleton.faces)
+    lines.push_back(lines_of(face, skeleton.lines));
+  return lines;
+}
+
+DOVETAIL_INLINE compressed_rows<local_id>
+faces_of_lines(std::span<const std::array<local_id, 3>> lines_of_face, std::size_t lines) {
+  return sorted_into_rows<local_id>(lines, [&](const auto& put) {
+    for (std::size_t f = 0; f < lines_of_face.size(); ++f)
+      for (const local_id line : lines_of_face[f])
         put(line, static_cast<local_id>(f));
   });
 }

@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -35,7 +37,8 @@ public:
                   const progress& on_progress)
       : model_(model), coarse_points_(coarse_points), coarse_(coarse), lines_(std::move(lines)), size_(size),
         threshold_(threshold), mesher_(mesher), run_(run), made_(made), on_progress_(on_progress),
-        faces_of_line_(faces_of_lines(coarse)) {
+        lines_of_face_(lines_of_faces(coarse)),
+        faces_of_line_(faces_of_lines(lines_of_face_, coarse.lines.size())) {
     for (const skeleton_line& line : coarse.lines)
       line_keys_.push_back(dovetail::key_of(line, coarse_points, size));
   }
@@ -58,7 +61,7 @@ private:
   static constexpr double triangles_per_task = 512; // each meshed some hundred times
 
   matched_skeleton as_it_is() const {
-    return {coarse_points_, coarse_, lines_, size_, threshold_, faces_of_line_};
+    return {coarse_points_, coarse_, lines_, size_, threshold_, lines_of_face_, faces_of_line_};
   }
 
   /// All that the trials of faces are a function of but the model, the plain sizes and the mesher.
@@ -120,15 +123,21 @@ private:
   std::vector<face_segments> segments_for(const faces_in_turn& faces, const any_geometry& model,
                                           matched_skeleton skeleton) const {
     std::vector<face_segments> chosen;
+    std::optional<segment_trials<Mesher>> trials;
     for (const local_id f : faces) {
-      chosen.push_back(segment_trials(model, skeleton, mesher_).mend(f));
+      if (!trials)
+        trials.emplace(model, skeleton, mesher_);
+      chosen.push_back(trials->mend(f));
+      if (chosen.back() == face_segments{})
+        continue;
+      trials.reset(); // what it knows holds for the lines as they were
       skeleton.change(model, f, chosen.back());
     }
     return chosen;
   }
 
   void accept(local_id f, const face_segments& chosen) {
-    const std::array<local_id, 3> sides = lines_of(coarse_.faces[f], coarse_.lines);
+    const auto& sides = lines_of_face_[f];
     for (std::size_t i = 0; i < 3; ++i)
       if (chosen[i].count != 0) {
         const local_id l = sides[i];
@@ -151,6 +160,7 @@ private:
   const any_executor& run_;
   matched_faces& made_;
   const progress& on_progress_;
+  std::vector<std::array<local_id, 3>> lines_of_face_;
   compressed_rows<local_id> faces_of_line_;
   std::vector<content_key> line_keys_;
   std::vector<local_id> touched_; ///< faces at lines that a sweep changed

@@ -23,7 +23,7 @@
 
 namespace dovetail::detail {
 
-/// The trials of one face, during which the lines stay as they are.
+/// Trials during which the lines stay as they are.
 template <surface_mesher Mesher>
 class segment_trials {
 public:
