@@ -31,6 +31,7 @@ quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
                                             std::span<const local_id> listed);
 
 /// Both in one pass: `measure_quality`, and `measure_at_interfaces` with the points that are on interfaces.
+/// Linear. Throws nothing but for a lack of memory.
 /// \param mesh the elements of one subdomain
 /// \param on_interface not 0 for points of an interface; the points behind these are on none
 template <int D>

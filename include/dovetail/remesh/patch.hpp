@@ -29,8 +29,11 @@ struct patch_boundary {
   std::vector<std::array<local_id, 2>> forbidden_edges = {};
 };
 
-/// About how many triangles a patch has with so many segments around it: as in a disk.
-inline double triangles_within(double segments) { return segments + segments * segments / 5.4; }
+/// About how many triangles there are in a patch: as many as in a disk.
+/// \param segments how many are around it
+inline double triangles_within(double segments) {
+  return segments + segments * segments / 5.4;
+}
 
 /// A parametric surface under a patch.
 ///

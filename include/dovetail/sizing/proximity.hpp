@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -111,15 +112,14 @@ struct gap_point : sized_point {
   double area = 0; ///< of one of the two faces
 };
 
-/// Sizes of gap / elements at some of the samples.
+/// Sizes of gap / elements at samples.
 template <geometry_model G>
-std::vector<gap_point> gaps_in_range(const G& model, const proximity_options& options,
-                                     const model_size_range& range, const facing_search& search,
-                                     const meeting_faces& meet, std::size_t begin, std::size_t end) {
+std::vector<gap_point> gaps_at(std::span<const surface_sample> samples, const G& model,
+                               const proximity_options& options, const model_size_range& range,
+                               const facing_search& search, const meeting_faces& meet) {
   const double reach = options.elements * range.largest;
   std::vector<gap_point> points;
-  for (std::size_t i = begin; i < end; ++i) {
-    const surface_sample& s = search.samples()[i];
+  for (const surface_sample& s : samples) {
     const auto& solids = model.topology().faces[s.face].solids;
     for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
       if (!(solids[side] == no_id ? options.outside : options.inside))
@@ -151,6 +151,7 @@ struct undivided_loop {
 };
 
 /// Sizes of gap / elements at samples that are `spacing(sample)` apart.
+/// \param loop carries out the loop over the samples
 template <geometry_model G, class Spacing, class Loop>
 std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& options,
                                        const model_size_range& range, const Spacing& spacing,
@@ -158,12 +159,14 @@ std::vector<gap_point> gaps_at_samples(const G& model, const proximity_options& 
   const facing_search search(sample_surface(model, spacing, {.per_face = 20000}), model.topology());
   const meeting_faces meet(model.topology());
   return loop(model, search.samples().size(), [&](const G& own, std::size_t begin, std::size_t end) {
-    return gaps_in_range(own, options, range, search, meet, begin, end);
+    return gaps_at(std::span(search.samples()).subspan(begin, end - begin), own, options, range, search,
+                   meet);
   });
 }
 
 /// Sizes of gap / elements on both faces of every wall or gap that asks for less than the largest size. What
 /// one pass finds tells the next how near samples have to be: the last are at most two sizes apart.
+/// \param loop carries out the loops over samples
 template <geometry_model G, class Loop = undivided_loop>
 std::vector<gap_point> proximity_points(const G& model, const proximity_options& options,
                                         const model_size_range& range, const Loop& loop = {}) {

@@ -45,7 +45,9 @@ std::array<local_id, 3> lines_of(const skeleton_face& face, const std::vector<sk
 /// The lines of all interface faces. O(n log n).
 std::vector<std::array<local_id, 3>> lines_of_faces(const coarse_skeleton& skeleton);
 
-/// The interface faces at each of so many lines, growing, by the lines of all faces. Linear.
+/// The interface faces at each line, growing. Linear.
+/// \param lines_of_face the three lines of each face
+/// \param lines how many there are
 compressed_rows<local_id> faces_of_lines(std::span<const std::array<local_id, 3>> lines_of_face,
                                          std::size_t lines);
 
