@@ -4,8 +4,10 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <future>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -53,4 +55,13 @@ TEST_CASE("a child that is not asked is ended") {
     ::close(ends[1]);
   }
   CHECK(::kill(child, 0) != 0);
+}
+
+TEST_CASE("in a process with other threads the work is done when it is asked for") {
+  std::promise<void> asked;
+  std::thread other([&] { asked.get_future().wait(); });
+  made_aside<pid_t> made([] { return ::getpid(); });
+  CHECK(made.wait() == ::getpid());
+  asked.set_value();
+  other.join();
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/encoding.hpp"
+#include "dovetail/distributed/process_pool.hpp"
 #include "dovetail/distributed/task_board.hpp"
 #include "dovetail/distributed/worker_process.hpp"
 #include "dovetail/parallel/concepts.hpp"
@@ -24,13 +25,13 @@ public:
   explicit made_aside(Work work)
       : task_([work = std::move(work)](std::size_t) { return encoded<T>(work()); }),
         tasks_{task_, {0}, detail::task_board(1)} {
-    is_started_ = worker_.start(tasks_, 1, {});
+    is_started_ = detail::thread_count() == 1 && worker_.start(tasks_, 1, {});
   }
   made_aside(const made_aside&) = delete;
   made_aside& operator=(const made_aside&) = delete;
 
   /// Waits for it, once. Nothing when `work` throws, or the child crashes. Where the system refuses a child,
-  /// the work is done here.
+  /// or this process has other threads, the work is done here.
   std::optional<T> wait() {
     if (!is_started_)
       return value_in(detail::run_task(task_, 0));
