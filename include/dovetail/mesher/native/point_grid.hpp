@@ -66,23 +66,18 @@ public:
     const double bound = radius * radius;
     const vec3 from_own = own.in_units(place - own.center);
     const double own_radius = radius * own.per_half;
-    for (std::uint32_t g = own.begin; g < own.end; ++g) {
-      const neighbour_group& group = groups_[g];
-      if (!group.may_hold(from_own, own_radius))
+    for (std::uint32_t k = own.begin; k < own.end; ++k) {
+      const neighbour& near = neighbours_[k];
+      if (!near.may_hold(from_own, own_radius))
         continue;
-      for (std::uint32_t k = group.begin; k < group.end; ++k) {
-        const neighbour& near = neighbours_[k];
-        if (!near.may_hold(from_own, own_radius))
-          continue;
-        const cell& other = cells_[near.number];
-        const vec3 from_center = other.in_units(place - other.center);
-        const float loose = loosened(radius * other.per_half, 1);
-        for (std::uint32_t at = other.first; at != none; at = chunks_[at].next)
-          search(chunks_[at], from_center, loose, [&](std::uint32_t id) {
-            if (norm_squared(places_[id] - place) < bound)
-              to.push_back({places_[id], id});
-          });
-      }
+      const cell& other = cells_[near.number];
+      const vec3 from_center = other.in_units(place - other.center);
+      const float loose = loosened(radius * other.per_half, 1);
+      for (std::uint32_t at = other.first; at != none; at = chunks_[at].next)
+        search(chunks_[at], from_center, loose, [&](std::uint32_t id) {
+          if (norm_squared(places_[id] - place) < bound)
+            to.push_back({places_[id], id});
+        });
     }
   }
 
@@ -99,7 +94,7 @@ private:
     vec3 center;
     double per_half = 0;              ///< 1 over half of its width
     std::uint32_t first = none;       ///< of its chunks; only this one may have room
-    std::uint32_t begin = 0, end = 0; ///< of the groups of its neighbours; none until wanted
+    std::uint32_t begin = 0, end = 0; ///< of its neighbours; none until wanted
     std::uint32_t node = 0;
 
     vec3 in_units(vec3 v) const { return per_half * v; }
@@ -119,32 +114,6 @@ private:
         squared += outside * outside;
       }
       return squared <= loosened(radius, half);
-    }
-  };
-
-  /// Some neighbours of one cell that are near each other: a large cell beside small ones has hundreds. In
-  /// the units of that cell.
-  struct neighbour_group {
-    static constexpr std::uint32_t room = 16;
-    std::array<float, 3> lower, upper; ///< around all of them
-    std::uint32_t begin, end;
-
-    void include(const neighbour& one) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        lower[k] = std::min(lower[k], one.center[k] - one.half);
-        upper[k] = std::max(upper[k], one.center[k] + one.half);
-      }
-    }
-    /// Whether any of them may.
-    bool may_hold(vec3 place, double radius) const {
-      float squared = 0, widest = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto at = static_cast<float>(place[static_cast<int>(k)]);
-        const float outside = std::max({lower[k] - at, at - upper[k], 0.0F});
-        squared += outside * outside;
-        widest = std::max(widest, upper[k] - lower[k]);
-      }
-      return squared <= loosened(radius, widest);
     }
   };
 
@@ -205,24 +174,9 @@ private:
   void find_neighbours(cell& of) {
     const octree& tree = piece_.tree();
     const box3 box = inflated(tree.box(of.node), reach_ * greatest_size(of.node));
-    const auto first = static_cast<std::uint32_t>(neighbours_.size());
+    of.begin = static_cast<std::uint32_t>(neighbours_.size());
     visit(0, tree.bounds(), box, of);
-    of.begin = static_cast<std::uint32_t>(groups_.size());
-    for (auto begin = first; begin < neighbours_.size(); begin = groups_.back().end)
-      add_group(begin);
-    of.end = static_cast<std::uint32_t>(groups_.size());
-  }
-  /// Of the neighbours from `begin` on, which come as they lie along the octree.
-  void add_group(std::uint32_t begin) {
-    const auto count = static_cast<std::uint32_t>(neighbours_.size());
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    neighbour_group& group = groups_.emplace_back();
-    group = {{infinity, infinity, infinity},
-             {-infinity, -infinity, -infinity},
-             begin,
-             std::min(count, begin + neighbour_group::room)};
-    for (std::uint32_t k = group.begin; k < group.end; ++k)
-      group.include(neighbours_[k]);
+    of.end = static_cast<std::uint32_t>(neighbours_.size());
   }
   /// The cells in a node that meet a box, as a cell sees them.
   void visit(std::size_t node, const box3& bounds, const box3& box, const cell& from) {
@@ -253,7 +207,6 @@ private:
   std::vector<bool> has_points_;       ///< per leaf
   std::vector<cell> cells_;
   std::vector<neighbour> neighbours_;
-  std::vector<neighbour_group> groups_;
   std::vector<chunk> chunks_;
   std::vector<vec3> places_; ///< by number
 };
