@@ -14,9 +14,12 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -181,19 +184,23 @@ TEST_CASE("With a spool a piece is a few bytes of its worker's, however large it
   const scratch_folder scratch;
   meshing_options options;
   options.store = in_spool(spool::start(scratch.path, {}));
-  const weighing_executor weigh;
-  const auto result = mesh_subdomains(
-      1,
-      [](local_id) {
-        subdomain_input input;
-        input.boundary.boundary = shapes::cube(40);
-        input.skeleton_points.resize(input.boundary.boundary.points.size());
-        return input;
-      },
-      fan_mesher{}, counting_improver{}, unit_size, weigh, options);
-  CHECK(result.pieces[0].counts.elements > 10000);
-  CHECK(*weigh.bytes < 300);
-  CHECK(*weigh.bytes > 50);
+  subdomain_input input;
+  input.boundary.boundary = shapes::cube(40);
+  input.skeleton_points.resize(input.boundary.boundary.points.size());
+  const auto bytes_for = [&](const subdomain_input& piece) {
+    const weighing_executor weigh;
+    const auto result = mesh_subdomains(
+        1, [&](local_id) { return piece; }, fan_mesher{}, counting_improver{}, unit_size, weigh, options);
+    CHECK(result.pieces[0].counts.elements > 10000);
+    CHECK(result.pieces[0].quality.at_interfaces.has_value() == !piece.on_interface.empty());
+    return *weigh.bytes;
+  };
+  const std::size_t bytes = bytes_for(input);
+  CHECK(bytes < 300);
+  CHECK(bytes > 50);
+  input.on_interface.resize(input.skeleton_points.size());
+  std::fill_n(input.on_interface.begin(), input.on_interface.size() / 3, std::uint8_t{1});
+  CHECK(bytes_for(input) < 600); // with the angles of the elements at interfaces
 }
 
 TEST_CASE("Loading asks for the skeleton's points where it is said") {

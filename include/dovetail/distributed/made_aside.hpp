@@ -25,7 +25,7 @@ public:
   explicit made_aside(Work work)
       : task_([work = std::move(work)](std::size_t) { return encoded<T>(work()); }),
         tasks_{task_, {0}, detail::task_board(1)} {
-    is_started_ = detail::thread_count() == 1 && worker_.start(tasks_, 1, {});
+    is_started_ = detail::is_only_thread() && worker_.start(tasks_, 1, {});
   }
   made_aside(const made_aside&) = delete;
   made_aside& operator=(const made_aside&) = delete;

@@ -9,12 +9,14 @@
 #include "dovetail/parallel/run_task.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <poll.h>
 #include <string>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -30,11 +32,22 @@ inline std::size_t thread_count() {
   return std::max<std::size_t>(count, 1);
 }
 
+/// Whether this is the only thread. The system lists a thread for a moment after it was joined.
+inline bool is_only_thread() {
+  constexpr int moments = 50;
+  for (int moment = 0; moment < moments; ++moment) {
+    if (thread_count() == 1)
+      return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
 /// Throws `usage_error` when this process has other threads.
 inline void require_single_thread() {
-  if (const std::size_t threads = thread_count(); threads > 1)
+  if (!is_only_thread())
     throw usage_error(
-        "worker processes cannot be forked from a process with " + std::to_string(threads) +
+        "worker processes cannot be forked from a process with " + std::to_string(thread_count()) +
         " threads, as one is that has initialised MPI; end the threads first, or use an executor "
         "and policies that need no child process");
 }

@@ -33,7 +33,8 @@ quality_at_interfaces measure_at_interfaces(const simplicial_piece<D>& piece,
 /// Both in one pass: `measure_quality`, and `measure_at_interfaces` with the points that are on interfaces.
 /// Linear. Throws nothing but for a lack of memory.
 /// \param mesh the elements of one subdomain
-/// \param on_interface not 0 for points of an interface; the points behind these are on none
+/// \param on_interface not 0 for points of an interface; the points behind these are on none. Where it is
+/// empty, nothing is measured apart
 template <int D>
 piece_quality measure_piece(const simplicial_mesh<D>& mesh, std::vector<std::uint8_t> on_interface);
 

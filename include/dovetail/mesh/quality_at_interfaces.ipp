@@ -90,6 +90,8 @@ quality_at_interfaces measure_at_interfaces(const simplicial_mesh<D>& mesh,
 
 template <int D>
 piece_quality measure_piece(const simplicial_mesh<D>& mesh, std::vector<std::uint8_t> on_interface) {
+  if (on_interface.empty())
+    return {measure_quality(mesh)};
   on_interface.resize(mesh.points.size(), 0);
   detail::interface_rings<D> rings(mesh, std::move(on_interface));
   auto all =

@@ -31,7 +31,7 @@ template <int D>
 struct piece_input {
   mesher_input<D> boundary;                    ///< as a mesher takes it
   std::vector<local_id> skeleton_points;       ///< per boundary point: its index in the fine skeleton
-  std::vector<std::uint8_t> on_interface = {}; ///< per boundary point; nothing where there are none
+  std::vector<std::uint8_t> on_interface = {}; ///< per boundary point; empty where nobody has looked
   content_key context = {}; ///< of what else the piece is a function of: the chords it must not have (D = 2)
 };
 
