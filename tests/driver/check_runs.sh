@@ -38,6 +38,7 @@ elements=$(figure elements)
 ((elements > 10000 && elements < 60000)) || fault "$elements elements"
 [[ $(figure subdomains) == 4 ]] || fault "$(figure subdomains) subdomains"
 [[ $(figure failed_subdomains) == 0 ]] || fault "failed subdomains"
+[[ $(figure model_volume) == 1.0 ]] || fault "the model's volume is '$(figure model_volume)'" # found beside the run
 [[ $hash =~ ^[0-9a-f]{16}$ && ! $hash =~ ^0*$ ]] || fault "the hash is '$hash'"
 (cd "$sandbox/work/out" && ls) >"$sandbox/listing"
 diff "$sandbox/listing" - <<<$'finished_run.txt\ninterfaces.vtp\nmesh.pvtu\nmesh_0000.vtu\nmesh_0001.vtu\nmesh_0002.vtu\nmesh_0003.vtu\nsurface.vtp' ||

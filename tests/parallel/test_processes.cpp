@@ -1,5 +1,6 @@
 #include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/distributed/fresh_memory.hpp"
+#include "dovetail/distributed/process_pool.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/task_board.hpp"
 #include "dovetail/parallel/serial.hpp"
@@ -13,6 +14,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <future>
 #include <new>
 #include <thread>
 
@@ -414,4 +416,19 @@ TEST_CASE("A task is taken once, and again when it is given back") {
   CHECK(board.take(3, 0) == 1);
   CHECK_FALSE(board.has_free());
   CHECK_FALSE(board.take(1, 0).has_value());
+}
+
+TEST_CASE("A thread that was joined keeps nobody from forking, though the system may list it still") {
+  int kept = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::thread([] {}).join();
+    kept += detail::is_only_thread() ? 0 : 1;
+  }
+  CHECK(kept == 0);
+  std::promise<void> done;
+  std::thread other([&] { done.get_future().wait(); });
+  CHECK_FALSE(detail::is_only_thread());
+  CHECK_THROWS_AS(detail::require_single_thread(), usage_error);
+  done.set_value();
+  other.join();
 }

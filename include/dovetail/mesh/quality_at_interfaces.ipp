@@ -40,10 +40,6 @@ std::vector<std::uint8_t> points_on_interfaces(const simplicial_piece<D>& piece,
   return marked;
 }
 
-} // namespace detail
-
-namespace detail {
-
 /// The elements of a piece by their distance from its interfaces.
 template <int D>
 class interface_rings {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/compressed_rows.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
@@ -34,7 +35,6 @@ public:
         lines_of_face_(lines_of_face), faces_of_line_(faces_of_line) {}
 
   double threshold() const { return threshold_; }
-  std::span<const vec3> coarse_points() const { return coarse_points_; }
   const refined_sizing& size() const { return size_; }
   vec3 point(local_id v) const { return coarse_points_[v]; }
 
@@ -44,7 +44,7 @@ public:
   }
   const std::vector<vec3>& points_of(local_id l) const {
     const auto found = changed_.find(l);
-    return found == changed_.end() ? lines_[l].points : found->second.points.points;
+    return found == changed_.end() ? lines_[l].points : found->second.fine.points;
   }
   any_sizing size_near(local_id l) const { return size_.near(place_of(line(l), coarse_points_)); }
 
@@ -64,24 +64,26 @@ public:
         visit(other);
   }
 
+  /// What a line is with other segments.
+  struct changed_line {
+    skeleton_line line;
+    fine_line fine;
+  };
+  changed_line with_segments(const any_geometry& model, local_id l, line_segments wanted) const {
+    skeleton_line changed = line(l);
+    changed.segments = wanted.count;
+    changed.bias = wanted.bias;
+    return {changed, remesh_line(model, changed, coarse_points_, size_near(l))};
+  }
   /// Gives the lines of a face the segments that were chosen for it.
   void change(const any_geometry& model, local_id face, const face_segments& chosen) {
     const auto& its = sides(face);
     for (std::size_t i = 0; i < 3; ++i)
-      if (chosen[i].count != 0) {
-        skeleton_line changed = line(its[i]);
-        changed.segments = chosen[i].count;
-        changed.bias = chosen[i].bias;
-        changed_[its[i]] = {changed, remesh_line(model, changed, coarse_points_, size_near(its[i]))};
-      }
+      if (chosen[i].count != 0)
+        changed_[its[i]] = with_segments(model, its[i], chosen[i]);
   }
 
 private:
-  struct changed_line {
-    skeleton_line line;
-    fine_line points;
-  };
-
   std::span<const vec3> coarse_points_;
   const coarse_skeleton& coarse_;
   std::span<const fine_line> lines_;

@@ -141,11 +141,10 @@ private:
     for (std::size_t i = 0; i < 3; ++i)
       if (chosen[i].count != 0) {
         const local_id l = sides[i];
-        skeleton_line& line = coarse_.lines[l];
-        line.segments = chosen[i].count;
-        line.bias = chosen[i].bias;
-        lines_[l] = remesh_line(model_, line, coarse_points_, size_.near(place_of(line, coarse_points_)));
-        line_keys_[l] = dovetail::key_of(line, coarse_points_, size_);
+        auto changed = as_it_is().with_segments(model_, l, chosen[i]);
+        coarse_.lines[l] = changed.line;
+        lines_[l] = std::move(changed.fine);
+        line_keys_[l] = dovetail::key_of(changed.line, coarse_points_, size_);
         append(touched_, std::as_const(faces_of_line_)[l]);
       }
   }

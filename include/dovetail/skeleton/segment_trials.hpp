@@ -10,7 +10,6 @@
 #include "dovetail/remesh/triangle_surface.hpp"
 #include "dovetail/skeleton/line_segments.hpp"
 #include "dovetail/skeleton/matched_skeleton.hpp"
-#include "dovetail/skeleton/remesh_lines.hpp"
 
 #include <algorithm>
 #include <array>
@@ -158,12 +157,8 @@ private:
     if (wanted.count == 0)
       return skeleton_.points_of(l);
     const auto [found, is_new] = tried_.try_emplace({l, wanted});
-    if (is_new) {
-      skeleton_line line = skeleton_.line(l);
-      line.segments = wanted.count;
-      line.bias = wanted.bias;
-      found->second = remesh_line(model_, line, skeleton_.coarse_points(), skeleton_.size_near(l)).points;
-    }
+    if (is_new)
+      found->second = skeleton_.with_segments(model_, l, wanted).fine.points;
     return found->second;
   }
 
