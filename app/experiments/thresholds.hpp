@@ -14,11 +14,14 @@ namespace dovetail::app::experiments {
 /// improved.
 inline std::vector<experiment_run> threshold_runs() {
   std::vector<experiment_run> runs;
-  const std::vector<std::pair<std::string, std::vector<std::string>>> backgrounds = {
-      {"raw", {"--background-improver", "none"}}, {"improved", {}}};
-  for (const auto& [background, options] : backgrounds) {
+  struct background_mesh {
+    std::string name;
+    std::vector<std::string> options;
+  };
+  for (const background_mesh& background :
+       {background_mesh{"raw", {"--background-improver", "none"}}, background_mesh{"improved", {}}}) {
     const auto add = [&](const std::string& rule, const std::vector<std::string>& more) {
-      experiment_run run{background + ", " + rule, "", "", "", options, 121e6};
+      experiment_run run{background.name + ", " + rule, "", "", "", background.options, 121e6};
       run.options.insert(run.options.end(), more.begin(), more.end());
       runs.push_back(std::move(run));
     };

@@ -20,6 +20,7 @@ namespace dovetail::improvement {
 struct library_piece {
   simplicial_mesh<3> mesh;              ///< without tags
   std::size_t fixed_points = 0;         ///< points [0, fixed_points) may not move
+  std::size_t needed_points = 0;        ///< with fewer, a number before one that may not change had no point
   std::vector<simplex<2>> boundary;     ///< sides with one element, oriented outwards
   std::vector<local_id> point_in_whole; ///< per fixed point: its number in the whole mesh
 };
@@ -29,6 +30,10 @@ namespace detail {
 /// Why the library's result may not replace the piece; empty when it may. `frozen_sides` are the piece's.
 std::string fault_of(const library_piece& piece, simplicial_mesh<3>& made,
                      const std::vector<simplex<2>>& frozen_sides);
+
+/// Cuts the best shaped elements of a mesh at their centroids until it has `count` points.
+/// O((points + elements) log(elements)).
+void add_centroids(simplicial_mesh<3>& mesh, std::size_t count);
 
 /// Mean length of the edges of the elements of a mesh; 0 when it has none.
 double mean_edge_length(const simplicial_mesh<3>& mesh);
@@ -59,6 +64,7 @@ private:
   const simplicial_mesh<3>& mesh_;
   const frozen_entities<3>& frozen_;
   std::vector<bool> is_fixed_;
+  std::size_t last_fixed_ = 0; ///< points of a higher number are free
   std::vector<local_id> new_id_;
   std::map<local_id, std::vector<local_id>> elements_of_;
   std::vector<simplex<2>> frozen_sides_;
@@ -72,9 +78,10 @@ void report_quality(report& to, const std::string& when, const quality_statistic
 } // namespace detail
 
 /// Lets a library improve each piece of a mesh: `improve_piece(const library_piece&)` returns the piece's new
-/// points and elements in any order of points, or throws. A piece is left as it was, with a warning in the
-/// report, when that fails, moves something fixed, is no valid mesh or has a worse worst element.
-/// Throws `mesh_error` when the input is not a mesh or a frozen side is not in it.
+/// points and elements in any order of points, or throws. Where it has fewer points than must be numbered,
+/// some elements are cut at their centroids. A piece is left as it was, with a warning in the report, when
+/// that fails, moves something fixed, is no valid mesh or has a worse worst element. Throws `mesh_error` when
+/// the input is not a mesh or a frozen side is not in it.
 template <class ImprovePiece>
 report improve_by_library(const std::string& name, simplicial_mesh<3>& mesh, const frozen_entities<3>& frozen,
                           const ImprovePiece& improve_piece) {

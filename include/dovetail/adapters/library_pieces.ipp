@@ -9,11 +9,14 @@
 #include "dovetail/improver/concepts.hpp"
 #include "dovetail/improver/point_numbering.hpp"
 #include "dovetail/mesh/adjacency.hpp"
+#include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/validity.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <queue>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -86,6 +89,41 @@ inline bool restore_fixed_points(const library_piece& piece, simplicial_mesh<3>&
   return true;
 }
 
+/// Puts a new point at the centroid of element `e`, which becomes four.
+inline void cut_at_centroid(simplicial_mesh<3>& mesh, std::size_t e) {
+  const simplex<3> whole = mesh.elements[e];
+  vec3 sum;
+  for (const local_id v : whole)
+    sum += mesh.points[v];
+  const auto centroid = static_cast<local_id>(mesh.points.size());
+  mesh.points.push_back(sum / 4);
+  mesh.elements[e][0] = centroid;
+  for (std::size_t k = 1; k < whole.size(); ++k) {
+    mesh.elements.push_back(whole);
+    mesh.elements.back()[k] = centroid;
+  }
+}
+
+DOVETAIL_INLINE void add_centroids(simplicial_mesh<3>& mesh, std::size_t count) {
+  if (mesh.points.size() >= count)
+    return;
+  std::priority_queue<std::pair<double, std::size_t>> best; // the least angle, and the element
+  const auto add = [&](std::size_t e) {
+    best.emplace(
+        std::ranges::min(dihedral_angles(corners(std::span<const vec3>(mesh.points), mesh.elements[e]))), e);
+  };
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    add(e);
+  while (mesh.points.size() < count && !best.empty()) {
+    const std::size_t e = best.top().second, first_new = mesh.elements.size();
+    best.pop();
+    cut_at_centroid(mesh, e);
+    add(e);
+    for (std::size_t part = first_new; part < mesh.elements.size(); ++part)
+      add(part);
+  }
+}
+
 inline std::vector<simplex<2>> sorted_boundary(const simplicial_mesh<3>& mesh) {
   std::vector<simplex<2>> result;
   const side_table<3> sides = build_sides(mesh);
@@ -99,6 +137,7 @@ DOVETAIL_INLINE std::string fault_of(const library_piece& piece, simplicial_mesh
                                      const std::vector<simplex<2>>& frozen_sides) {
   if (!restore_fixed_points(piece, made))
     return "it lost a fixed point";
+  add_centroids(made, piece.needed_points);
   if (const validity found = check_validity(made); !found.valid())
     return "it is not valid: " + found.text();
   if (sorted_boundary(made) != sorted_boundary(piece.mesh))
@@ -138,6 +177,9 @@ DOVETAIL_INLINE piece_cutter::piece_cutter(const simplicial_mesh<3>& mesh, const
       fix(sides.vertices[s]);
   for (const auto& side : frozen.sides)
     fix(side);
+  for (std::size_t v = 0; v < is_fixed_.size(); ++v)
+    if (is_fixed_[v])
+      last_fixed_ = v;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     elements_of_[tag(e)].push_back(static_cast<local_id>(e));
 }
@@ -160,6 +202,10 @@ DOVETAIL_INLINE library_piece piece_cutter::cut(const std::vector<local_id>& ele
       piece.point_in_whole.push_back(used[k]);
   }
   piece.fixed_points = piece.point_in_whole.size();
+  piece.needed_points = piece.fixed_points;
+  for (const local_id v : used)
+    if (!is_fixed_[v] && static_cast<std::size_t>(v) < last_fixed_)
+      ++piece.needed_points;
   for (const local_id e : elements) {
     simplex<3> element = mesh_.elements[e];
     for (local_id& v : element)
@@ -210,7 +256,6 @@ DOVETAIL_INLINE simplicial_mesh<3> piece_cutter::result() {
     for (local_id& v : element)
       if (v < 0)
         v = numbers.of_free[-1 - v];
-  fill_gaps(numbers, whole);
   if (!mesh_.tags.empty())
     whole.tags = std::move(tags_);
   return whole;
