@@ -40,6 +40,14 @@ public:
           std::make_shared<const any_mesher>(any_mesher(policy.for_background(), name_, without_fallbacks{}));
   }
 
+  /// What is no mesher does not convert; where one is asked for by name, the compiler's error says why not.
+  template <class M>
+    requires(!std::same_as<M, any_mesher> && !boundary_keeping_mesher<M, D>)
+  explicit any_mesher(const M&, const std::string& = {}) {
+    static_assert(boundary_keeping_mesher<M, D>,
+                  "any_mesher<D> holds a boundary_keeping_mesher of dimension D (mesher/concepts.hpp)");
+  }
+
   /// The same with another mesher as the last fallback, for pieces that this one cannot mesh.
   any_mesher with_fallback(any_mesher other) const {
     any_mesher extended = *this;

@@ -20,8 +20,8 @@ public:
   }
   template <class First, class... Rest>
     requires(!std::same_as<First, minimum_of>)
-  &&sizing_field<First> && (sizing_field<Rest> && ...) explicit minimum_of(First first, Rest... rest)
-      : fields_{std::move(first), std::move(rest)...} {}
+  explicit minimum_of(First first, Rest... rest)
+      : minimum_of(list_of(std::move(first), std::move(rest)...)) {}
 
   double operator()(vec3 p) const {
     double least = fields_.front()(p);
@@ -45,12 +45,22 @@ public:
   }
 
 private:
+  template <class... Fields>
+  static std::vector<erased_sizing> list_of(Fields... fields) {
+    constexpr bool are_fields = (sizing_field<Fields> && ...);
+    static_assert(are_fields, "minimum_of takes models of sizing_field (sizing/concepts.hpp)");
+    if constexpr (are_fields)
+      return {std::move(fields)...};
+  }
+
   std::vector<erased_sizing> fields_;
 };
 
 /// A field times a constant factor. Throws `sizing_error` for a factor that is not positive and finite.
-template <sizing_field H>
+template <class H>
 class scaled {
+  static_assert(sizing_field<H>, "scaled takes a sizing_field (sizing/concepts.hpp)");
+
 public:
   scaled(H field, double factor)
       : field_(std::move(field)), factor_(sizing::checked_size(factor, "the scaling factor")) {}
@@ -65,8 +75,10 @@ private:
 };
 
 /// A field clamped to [lower, upper]. Throws `sizing_error` unless 0 < lower <= upper, both finite.
-template <sizing_field H>
+template <class H>
 class bounded {
+  static_assert(sizing_field<H>, "bounded takes a sizing_field (sizing/concepts.hpp)");
+
 public:
   bounded(H field, double lower, double upper)
       : field_(std::move(field)), lower_(sizing::checked_size(lower, "the lower size bound")),

@@ -39,9 +39,10 @@ struct gradation_options {
 /// positive, finite number.
 class graded_size : private sizing::octree_values {
 public:
-  template <sizing_field H>
+  template <class H>
   graded_size(const H& field, const box3& domain, const gradation_options& options = {})
       : octree_values(checked(domain, options)), options_(options) {
+    static_assert(sizing_field<H>, "graded_size takes a sizing_field (sizing/concepts.hpp)");
     refine_to_sizes(field);
     for (int round = 0;; ++round) {
       collect_corners(field);
