@@ -245,7 +245,7 @@ TEST_CASE("damaged middles of edges are found") {
       middle(piece) = static_cast<local_id>(piece.node_ids.size() - 1);
     };
     CHECK(faults(3, doubled).find("1 x edge with more than one middle (from point ") != std::string::npos);
-    CHECK(faults(3, [&](io::loaded_mesh& piece) {
+    CHECK(faults(3, [&, e = e](io::loaded_mesh& piece) {
             middle(piece) = piece.mesh.elements[e][0];
           }).find("a corner is also the middle of an edge (point ") != std::string::npos);
     CHECK(faults(3, [&](io::loaded_mesh& piece) {

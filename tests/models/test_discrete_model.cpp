@@ -1,4 +1,6 @@
 #include "discrete_shapes.hpp"
+#include "dovetail/core/nearest_point.hpp"
+#include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "model_checks.hpp"
@@ -7,7 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
+#include <utility>
 
 using namespace dovetail;
 using namespace dovetail::testing;
@@ -44,6 +49,27 @@ double worst_lift(const discrete_model& model) {
     worst = std::max(worst, norm(model.project_to_face(f, p, {}) - uv));
   }
   return worst;
+}
+
+/// A coarse sphere of uneven triangles.
+triangle_soup uneven_sphere(int n, double seed) {
+  triangle_soup soup = sphere_soup({0, 0, 0}, 1, n);
+  for (vec3& p : soup.points)
+    p = normalized(p + (0.35 / n) * vec3{std::sin(37.1 * p.x + 11.3 * p.y + seed),
+                                         std::sin(29.7 * p.y + 17.9 * p.z + 2 * seed),
+                                         std::sin(41.3 * p.z + 13.7 * p.x + 3 * seed)});
+  return soup;
+}
+
+/// How far a point is from the triangles of a model.
+double away_from(const simplicial_mesh<2>& triangles, vec3 p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& t : triangles.elements) {
+    const auto [a, b, c] = corners(std::span(triangles.points), t);
+    const auto w = nearest_on_triangle(a, b, c, p);
+    nearest = std::min(nearest, distance(w[0] * a + w[1] * b + w[2] * c, p));
+  }
+  return nearest;
 }
 
 /// Smallest angle, in degrees, between consecutive coedges of a face, in its parameter plane.
@@ -127,6 +153,17 @@ TEST_CASE("a torus, whose charts have no natural start, passes all checks") {
   CHECK(features(model) == 0);
   check_model(model);
   CHECK(worst_lift(model) < 1e-9);
+}
+
+TEST_CASE("the charts of a coarse, uneven surface go through its points") {
+  for (const auto& [n, seed] : {std::pair(5, 2), {5, 6}, {5, 11}, {6, 8}, {6, 9}, {8, 1}}) {
+    CAPTURE(n);
+    CAPTURE(seed);
+    const auto soup = uneven_sphere(n, seed);
+    const auto model = model_of(soup);
+    for (const vec3 p : soup.points)
+      CHECK(away_from(model.surface().mesh, p) < 1e-9);
+  }
 }
 
 TEST_CASE("charts of smooth surfaces have no thin corners") {

@@ -59,9 +59,16 @@ std::map<local_id, double> area_by_id(const adaptable_mesh<3>& whole) {
   return sum;
 }
 
+/// By policies of our own, whose meshes are the same with all versions of libraries.
+auto by_native(int subdomains = 4) {
+  generate_options options;
+  options.subdomains = subdomains;
+  return parameters<>{}.with_options(options);
+}
+
 adaptable_mesh<3> ball(double size) {
   const discrete_model model(repaired(testing::sphere_soup({0, 0, 0}, 1, 12)));
-  auto made = io::gather(generate<3>(model, uniform_size(size), by_tetgen()).mesh);
+  auto made = io::gather(generate<3>(model, uniform_size(size), by_native()).mesh);
   return {std::move(made.mesh)};
 }
 
@@ -114,9 +121,9 @@ TEST_CASE("a ball that is adapted ten times keeps its volume and its surface") {
     std::vector<double> sizes;
     for (const vec3& p : mesh.mesh.points)
       sizes.push_back(p.x > 0.3 && fine ? 0.15 : 0.25);
-    mesh = whole_mesh(adapt<3>(mesh, sizes, by_tetgen()));
+    mesh = whole_mesh(adapt<3>(mesh, sizes, by_native()));
     const auto [least, most] = radii(mesh.mesh); // of the polyhedron that it was at first: 0.9955 to 1
-    CHECK(least > 0.995);
+    CHECK(least > 0.9955);
     CHECK(most < 1.0005);
     if (loop == 0)
       volume = volume_by_material(mesh.mesh)[0];

@@ -4,19 +4,22 @@
 /// ends.
 #pragma once
 
+#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/models/discrete/charts.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
 namespace dovetail::discrete {
 
 /// Collapses, edge by edge, borders within smooth areas that are short against the triangles at their ends
-/// and join two junctions. No feature edge is touched, no triangle turns by more than 60 degrees.
+/// and join two junctions, where the surface stays where it is: across a ridge between two triangles, as
+/// every edge of a coarse round surface is one, they do not. No feature edge is touched.
 class border_collapser {
 public:
   explicit border_collapser(charted_surface surface) : s_(std::move(surface)), measures_(s_.mesh) {
@@ -42,8 +45,10 @@ private:
   static constexpr int largest_rounds = 4;
   static constexpr double short_share = 0.6; ///< of the longest edge at the two ends
   static constexpr std::size_t most_edges = 6;
+  static constexpr double least_cosine = 0.5; ///< of the angle by which a triangle turns
   static constexpr double steepest =
       0.2; ///< cosine of the angle to the chart's normal that a moved triangle keeps
+  static constexpr double most_away = 0.01; ///< from the surface, of the longest edge at a moved vertex
 
   std::vector<simplex<2>>& triangles() { return s_.mesh.elements; }
   vec3 point(local_id v) const { return measures_.point(v); }
@@ -162,6 +167,7 @@ private:
     for (const std::size_t t : pair) // no chart may vanish
       if (chart_size_[s_.chart_of[t]] <= 2)
         return false;
+    double away = std::numeric_limits<double>::infinity(); // of the place left from the triangles then
     for (const std::size_t t : at_[gone]) {
       if (t == pair[0] || t == pair[1])
         continue;
@@ -169,10 +175,15 @@ private:
       for (std::size_t i = 0; i < 3; ++i)
         moved[i] = point(triangles()[t][i] == gone ? kept : triangles()[t][i]);
       const vec3 after = normalized(cross(moved[1] - moved[0], moved[2] - moved[0]));
-      const bool turned = !measures_.is_sliver(t) && dot(after, normalized(measures_.area_vector(t))) < 0.5;
+      const bool turned =
+          !measures_.is_sliver(t) && dot(after, normalized(measures_.area_vector(t))) < least_cosine;
       if (turned || dot(after, s_.frames[s_.chart_of[t]].n) < steepest)
         return false;
+      const auto w = nearest_on_triangle(moved[0], moved[1], moved[2], point(gone));
+      away = std::min(away, distance(w[0] * moved[0] + w[1] * moved[1] + w[2] * moved[2], point(gone)));
     }
+    if (away > most_away * longest_edge_at(gone))
+      return false;
     for (const std::size_t t : at_[gone]) {
       if (t == pair[0] || t == pair[1])
         continue;
