@@ -192,7 +192,8 @@ TEST_CASE("the figures of each of the paper's columns agree with one another") {
   for (const auto& [name, table] : paper_figures().at("tables").items()) {
     CHECK_FALSE(table.at("place").get<std::string>().empty());
     for (const auto& [label, column] : table.at("columns").items()) {
-      INFO(name << ", " << label);
+      const std::string place = name + ", " + label;
+      INFO(place);
       if (column.contains("speed"))
         CHECK(column.at("elements").get<double>() / column.at("scheme").get<double>() /
                   column.at("cores").get<double>() / column.at("speed").get<double>() ==

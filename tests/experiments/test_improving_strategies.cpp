@@ -85,7 +85,9 @@ std::vector<distributed_mesh> test_meshes() {
 TEST_CASE("every strategy keeps the mesh, its boundary and its materials, and makes it no worse") {
   for (const auto& mesh : test_meshes()) {
     const auto before = measured(mesh);
-    for (const auto& [name, strategy] : strategies) {
+    for (const auto& named : strategies) {
+      const auto& name = named.first; // named, since clang 14 captures no structured binding
+      const auto& strategy = named.second;
       CAPTURE(name);
       CAPTURE(mesh.counts.size());
       const auto made = strategy(mesh, improvement::native{}, {}, parallel::serial{}, {});
@@ -116,7 +118,9 @@ TEST_CASE("the baselines improve what interfaces had kept from it") {
 
 TEST_CASE("every strategy gives the same by every executor, any number of ranks, and with a spool") {
   const auto mesh = lumps(8, 5, 0.5);
-  for (const auto& [name, strategy] : strategies) {
+  for (const auto& named : strategies) {
+    const auto& name = named.first; // named, since clang 14 captures no structured binding
+    const auto& strategy = named.second;
     CAPTURE(name);
     const auto hash_by = [&](const any_executor& run, const improving_options& options = {}) {
       return io::mesh_hash(strategy(mesh, improvement::native{}, {}, run, options).mesh);
@@ -273,7 +277,9 @@ TEST_CASE("Loehner's improver gives two layers of each piece to its lesser neigh
 
 TEST_CASE("the summary has the rows of the paper's table 10") {
   const auto mesh = lumps(8, 5, 0.5);
-  for (const auto& [name, strategy] : strategies) {
+  for (const auto& named : strategies) {
+    const auto& name = named.first; // named, since clang 14 captures no structured binding
+    const auto& strategy = named.second;
     if (name == "pieces")
       continue;
     CAPTURE(name);

@@ -2,6 +2,7 @@
 // (check_hdf5_pieces.py).
 #include "files/file_size_limit.hpp"
 #include "files/scratch_folder.hpp"
+#include "files/script_outcome.hpp"
 #include "files/stacked_cubes.hpp"
 
 #include "dovetail/distributed/processes.hpp"
@@ -43,15 +44,11 @@ namespace {
 
 const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
 
-/// The script's exit status (0: the same mesh) and what it printed.
-std::pair<int, std::string> compare(const std::filesystem::path& folder,
-                                    const std::filesystem::path& vtu_folder) {
-  const auto log = folder / "check.txt";
-  const int status =
-      std::system(("/usr/bin/python3 " DOVETAIL_TESTS "/check_hdf5_pieces.py '" + folder.string() +
-                   "' mesh '" + (vtu_folder / "mesh.pvtu").string() + "' > '" + log.string() + "' 2>&1")
-                      .c_str());
-  return {status, testing::file_content(log)};
+testing::script_outcome compare(const std::filesystem::path& folder,
+                                const std::filesystem::path& vtu_folder) {
+  return testing::run_script(DOVETAIL_TESTS "/check_hdf5_pieces.py '" + folder.string() + "' mesh '" +
+                                 (vtu_folder / "mesh.pvtu").string() + "'",
+                             folder);
 }
 
 bool has_readers() {
@@ -69,10 +66,10 @@ void check_readers(const distributed_simplicial_mesh<D>& mesh, int files, const 
   const testing::scratch_folder folder("hdf5_pieces");
   io::vtu_writer{.files = files}(mesh, folder / "vtu");
   io::hdf5_writer{.files = files}(mesh, folder / "hdf5");
-  const auto [status, log] = compare(folder / "hdf5", folder / "vtu");
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.find(expected) != std::string::npos);
+  const auto found = compare(folder / "hdf5", folder / "vtu");
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.find(expected) != std::string::npos);
 }
 
 distributed_mesh with_straight_middles(distributed_mesh mesh) {
@@ -122,11 +119,11 @@ TEST_CASE("a file that was changed is another mesh") {
   auto index = testing::file_content(folder / "hdf5/mesh.xdmf");
   index.replace(index.find("mesh_0001.vtkhdf:/VTKHDF/Points"), 9, "mesh_0002");
   testing::write_content(folder / "hdf5/mesh.xdmf", index);
-  CHECK(compare(folder / "hdf5", folder / "vtu").first != 0);
+  CHECK(compare(folder / "hdf5", folder / "vtu").status != 0);
   auto moved = cubes.distributed();
   moved.skeleton.points.own()[7].x += 1e-9;
   io::hdf5_writer{}(moved, folder / "hdf5");
-  CHECK(compare(folder / "hdf5", folder / "vtu").first != 0);
+  CHECK(compare(folder / "hdf5", folder / "vtu").status != 0);
 }
 
 TEST_CASE("the files are the same by every executor, at any time") {

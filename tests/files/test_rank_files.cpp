@@ -1,6 +1,7 @@
 // Files of parallel solvers: each rank its own, read by somebody else's reader (check_rank_files.py).
 #include "files/bent_edges.hpp"
 #include "files/scratch_folder.hpp"
+#include "files/script_outcome.hpp"
 #include "files/stacked_cubes.hpp"
 
 #include "dovetail/distributed/processes.hpp"
@@ -27,14 +28,10 @@ using namespace dovetail;
 
 namespace {
 
-/// The script's exit status (0: one mesh) and what it printed.
-std::pair<int, std::string> check(const std::string& format, const std::filesystem::path& folder, int ranks) {
-  const auto log = folder / "check.txt";
-  const int status =
-      std::system(("/usr/bin/python3 " DOVETAIL_TESTS "/check_rank_files.py " + format + " '" +
-                   folder.string() + "' " + std::to_string(ranks) + " > '" + log.string() + "' 2>&1")
-                      .c_str());
-  return {status, testing::file_content(log)};
+testing::script_outcome check(const std::string& format, const std::filesystem::path& folder, int ranks) {
+  return testing::run_script(DOVETAIL_TESTS "/check_rank_files.py " + format + " '" + folder.string() + "' " +
+                                 std::to_string(ranks),
+                             folder);
 }
 
 bool has_python_module(const std::string& name) {
@@ -65,22 +62,22 @@ TEST_CASE("PVTU: VTK reads what each rank has, copies marked, with and without g
     CHECK(summary.get("files") == ranks + 1);
     CHECK(summary.find("redistribution").get("ranks") == ranks);
     CHECK(summary.files.back() == "ranks.pvtu");
-    const auto [status, log] = check("pvtu", folder, ranks);
-    INFO(log);
-    CHECK(status == 0);
-    CHECK(log.starts_with("1296 elements, 343 vertices, 432 boundary sides, measure 1.000000000"));
-    CHECK((log.find(" 0 copies, 0 ghosts") != std::string::npos) == (ranks == 1));
+    const auto found = check("pvtu", folder, ranks);
+    INFO(found.log);
+    CHECK(found.status == 0);
+    CHECK(found.log.starts_with("1296 elements, 343 vertices, 432 boundary sides, measure 1.000000000"));
+    CHECK((found.log.find(" 0 copies, 0 ghosts") != std::string::npos) == (ranks == 1));
   }
   const testing::scratch_folder folder("ranks_pvtu");
   io::rank_writer<io::pvtu_format>{.ranks = 3, .ghosts = true}(cubes.distributed(), folder);
-  const auto [status, log] = check("pvtu", folder, 3);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.find(" 0 ghosts") == std::string::npos);
+  const auto found = check("pvtu", folder, 3);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.find(" 0 ghosts") == std::string::npos);
   auto spoilt = testing::file_content(folder / "ranks_0001.vtu");
   spoilt[spoilt.size() - 29] = 0; // the last element is no ghost any more
   testing::write_content(folder / "ranks_0001.vtu", spoilt);
-  CHECK(check("pvtu", folder, 3).first != 0);
+  CHECK(check("pvtu", folder, 3).status != 0);
 }
 
 TEST_CASE("PVTU of triangles") {
@@ -91,12 +88,12 @@ TEST_CASE("PVTU of triangles") {
   const testing::scratch_folder folder("ranks_triangles");
   for (const auto& mesh : {result.mesh, testing::with_bent_edges(result.mesh)}) {
     io::rank_writer<io::pvtu_format>{.ranks = 3}(mesh, folder);
-    const auto [status, log] = check("pvtu", folder, 3);
-    INFO(log);
-    CHECK(status == 0);
-    CHECK(log.find("measure 5.750000000") != std::string::npos);
+    const auto found = check("pvtu", folder, 3);
+    INFO(found.log);
+    CHECK(found.status == 0);
+    CHECK(found.log.find("measure 5.750000000") != std::string::npos);
     const auto nodes = " " + std::to_string(io::number_nodes(mesh).points()) + " vertices";
-    CHECK(log.find(nodes) != std::string::npos);
+    CHECK(found.log.find(nodes) != std::string::npos);
   }
 }
 
@@ -107,11 +104,11 @@ TEST_CASE("PVTU of second order: VTK reads nodes in the middle of edges, with an
   for (const bool ghosts : {false, true}) {
     const testing::scratch_folder folder("ranks_quadratic");
     io::rank_writer<io::pvtu_format>{.ranks = 4, .ghosts = ghosts}(mesh, folder);
-    const auto [status, log] = check("pvtu", folder, 4);
-    INFO(log);
-    CHECK(status == 0);
-    CHECK(log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
-    CHECK((log.find(" 0 ghosts") == std::string::npos) == ghosts);
+    const auto found = check("pvtu", folder, 4);
+    INFO(found.log);
+    CHECK(found.status == 0);
+    CHECK(found.log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
+    CHECK((found.log.find(" 0 ghosts") == std::string::npos) == ghosts);
   }
 }
 
@@ -122,14 +119,14 @@ TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in 
   }
   const testing::scratch_folder folder("ranks_openfoam");
   io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes.distributed(), folder);
-  auto [status, log] = check("openfoam", folder, 3);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(volume_in(log) == doctest::Approx(1));
+  auto found = check("openfoam", folder, 3);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(volume_in(found.log) == doctest::Approx(1));
   for (const char* line :
        {"cells:            1296", "boundary patches: 3", "Number of regions: 1", "side_walls          288",
         "Upper triangular ordering OK", "solid__0_____       432"})
-    CHECK_MESSAGE(log.find(line) != std::string::npos, line);
+    CHECK_MESSAGE(found.log.find(line) != std::string::npos, line);
 
   const auto faces = folder / "processor2/constant/polyMesh/faces"; // its last patch is one of a processor
   auto text = testing::file_content(faces);
@@ -138,7 +135,7 @@ TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in 
   const auto end = text.find('\n', last);
   testing::write_content(faces, text.substr(0, before) + text.substr(last, end + 1 - last) +
                                     text.substr(before, last - before) + text.substr(end + 1));
-  CHECK(check("openfoam", folder, 3).first != 0);
+  CHECK(check("openfoam", folder, 3).status != 0);
 }
 
 TEST_CASE(
@@ -167,12 +164,12 @@ TEST_CASE(
     MESSAGE("skipped: OpenFOAM is not installed");
     return;
   }
-  const auto [status, log] = check("openfoam", folder, 1);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(volume_in(log) == doctest::Approx(1));
+  const auto found = check("openfoam", folder, 1);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(volume_in(found.log) == doctest::Approx(1));
   for (const char* line : {"cells:            1296", "boundary patches: 3", "solid__0_____       432"})
-    CHECK_MESSAGE(log.find(line) != std::string::npos, line);
+    CHECK_MESSAGE(found.log.find(line) != std::string::npos, line);
 }
 
 TEST_CASE("OpenFOAM: dictionaries of others are kept, with those of dovetail beside them") {
@@ -193,12 +190,12 @@ TEST_CASE("MFEM: ranks agree about what each group of them shares, sides are the
   const testing::scratch_folder folder("ranks_mfem");
   const auto summary = io::rank_writer<io::mfem_format>{.ranks = 5}(cubes.distributed(), folder);
   CHECK(summary.files.back() == "mesh.000004");
-  const auto [status, log] = check("mfem", folder, 5);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.starts_with("1296 elements, 343 vertices, 432 boundary sides, measure 1.000000000"));
+  const auto found = check("mfem", folder, 5);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.starts_with("1296 elements, 343 vertices, 432 boundary sides, measure 1.000000000"));
   // Bottom, two faces between solids, top, and the walls around.
-  CHECK(log.find("attribute: {1: 72, 2: 72, 3: 72, 4: 72, 5: 288} materials: [1, 2, 3]") !=
+  CHECK(found.log.find("attribute: {1: 72, 2: 72, 3: 72, 4: 72, 5: 288} materials: [1, 2, 3]") !=
         std::string::npos);
   CHECK(testing::file_content(folder / "mesh.000000").find("# element attribute 2: solid \"1\" <&>\n") !=
         std::string::npos);
@@ -209,7 +206,7 @@ TEST_CASE("MFEM: ranks agree about what each group of them shares, sides are the
   testing::write_content(folder / "mesh.000001", spoilt.substr(0, edges) +
                                                      spoilt.substr(gap + 1, end - gap - 1) + " " +
                                                      spoilt.substr(edges, gap - edges) + spoilt.substr(end));
-  CHECK(check("mfem", folder, 5).first != 0); // an edge from its other end
+  CHECK(check("mfem", folder, 5).status != 0); // an edge from its other end
 }
 
 TEST_CASE("MFEM of second order: nodes are those of H1_3D_P2, with ghosts asked for or not") {
@@ -218,11 +215,11 @@ TEST_CASE("MFEM of second order: nodes are those of H1_3D_P2, with ghosts asked 
   const testing::scratch_folder folder("ranks_mfem_quadratic"), with_ghosts("ranks_mfem_ghosts");
   const auto mesh = testing::with_bent_edges(cubes.distributed());
   io::rank_writer<io::mfem_format>{.ranks = 5}(mesh, folder);
-  const auto [status, log] = check("mfem", folder, 5);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
-  CHECK(log.find("attribute: {1: 72, 2: 72, 3: 72, 4: 72, 5: 288}") != std::string::npos);
+  const auto found = check("mfem", folder, 5);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
+  CHECK(found.log.find("attribute: {1: 72, 2: 72, 3: 72, 4: 72, 5: 288}") != std::string::npos);
   io::rank_writer<io::mfem_format>{.ranks = 5, .ghosts = true}(mesh, with_ghosts);
   const auto file = testing::file_content(folder / "mesh.000003");
   CHECK(file == testing::file_content(with_ghosts / "mesh.000003"));
@@ -231,7 +228,7 @@ TEST_CASE("MFEM of second order: nodes are those of H1_3D_P2, with ghosts asked 
   const auto last = file.rfind('\n', end - 1), before = file.rfind('\n', last - 1);
   testing::write_content(folder / "mesh.000003", file.substr(0, before) + file.substr(last, end - last) +
                                                      file.substr(before, last - before) + file.substr(end));
-  CHECK(check("mfem", folder, 5).first != 0);
+  CHECK(check("mfem", folder, 5).status != 0);
 }
 
 TEST_CASE("workers write the files of ranks in the finishing pass, beside others; pieces stay") {

@@ -2,6 +2,7 @@
 #include "files/bent_edges.hpp"
 #include "files/file_size_limit.hpp"
 #include "files/scratch_folder.hpp"
+#include "files/script_outcome.hpp"
 #include "files/stacked_cubes.hpp"
 
 #include "dovetail/distributed/processes.hpp"
@@ -36,14 +37,10 @@ namespace {
 
 [[maybe_unused]] const bool closes_all_itself = (io::let_hdf5_close_nothing_at_exit(), true);
 
-/// The script's exit status (0: one mesh) and what it printed.
-std::pair<int, std::string> check(const std::string& format, const std::filesystem::path& folder, int ranks) {
-  const auto log = folder / "check.txt";
-  const int status =
-      std::system(("/usr/bin/python3 " DOVETAIL_TESTS "/check_rank_files.py " + format + " '" +
-                   folder.string() + "' " + std::to_string(ranks) + " > '" + log.string() + "' 2>&1")
-                      .c_str());
-  return {status, testing::file_content(log)};
+testing::script_outcome check(const std::string& format, const std::filesystem::path& folder, int ranks) {
+  return testing::run_script(DOVETAIL_TESTS "/check_rank_files.py " + format + " '" + folder.string() + "' " +
+                                 std::to_string(ranks),
+                             folder);
 }
 
 bool has_python_module(const std::string& name) {
@@ -64,16 +61,16 @@ TEST_CASE("plain arrays with an XDMF file: h5py reads one mesh") {
   const testing::scratch_folder folder("ranks_xdmf");
   const auto summary = io::rank_writer<io::xdmf_format>{.ranks = 4}(cubes.distributed(), folder);
   CHECK(summary.get("files") == 2);
-  const auto [status, log] = check("xdmf", folder, 4);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.find(one_mesh) != std::string::npos);
-  CHECK(log.find("'side walls': 288") != std::string::npos);
-  CHECK(log.find("regions: ['solid \"0\" <&>', ") != std::string::npos);
+  const auto found = check("xdmf", folder, 4);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.find(one_mesh) != std::string::npos);
+  CHECK(found.log.find("'side walls': 288") != std::string::npos);
+  CHECK(found.log.find("regions: ['solid \"0\" <&>', ") != std::string::npos);
   auto spoilt = testing::file_content(folder / "ranks.xdmf");
   spoilt.replace(spoilt.find("343 3"), 5, "342 3");
   testing::write_content(folder / "ranks.xdmf", spoilt);
-  CHECK(check("xdmf", folder, 4).first != 0);
+  CHECK(check("xdmf", folder, 4).status != 0);
 }
 
 TEST_CASE("plain arrays of second order: h5py reads nodes in the middle of edges, in XDMF's order") {
@@ -82,17 +79,17 @@ TEST_CASE("plain arrays of second order: h5py reads nodes in the middle of edges
   const auto mesh = testing::with_bent_edges(cubes.distributed());
   const testing::scratch_folder folder("ranks_xdmf_quadratic");
   io::rank_writer<io::xdmf_format>{.ranks = 4}(mesh, folder);
-  const auto [status, log] = check("xdmf", folder, 4);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.find("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000") !=
+  const auto found = check("xdmf", folder, 4);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.find("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000") !=
         std::string::npos);
   CHECK(testing::file_content(folder / "ranks.xdmf").find("\"Tetrahedron_10\"") != std::string::npos);
   const std::string exchange =
       "import h5py; f = h5py.File('" + (folder / "ranks.h5").string() +
       "', 'r+'); c = f['viz/topology/cells']; c[5] = c[5][[0, 1, 2, 3, 4, 6, 5, 7, 8, 9]]";
   REQUIRE(std::system(("/usr/bin/python3 -c \"" + exchange + "\"").c_str()) == 0);
-  CHECK(check("xdmf", folder, 4).first != 0);
+  CHECK(check("xdmf", folder, 4).status != 0);
 }
 
 TEST_CASE("plain arrays of triangles, of first and second order: h5py reads one mesh") {
@@ -103,11 +100,12 @@ TEST_CASE("plain arrays of triangles, of first and second order: h5py reads one 
   const testing::scratch_folder folder("ranks_xdmf_triangles");
   for (const auto& mesh : {result.mesh, testing::with_bent_edges(result.mesh)}) {
     io::rank_writer<io::xdmf_format>{.ranks = 3}(mesh, folder);
-    const auto [status, log] = check("xdmf", folder, 3);
-    INFO(log);
-    CHECK(status == 0);
-    CHECK(log.find("measure 6.000000000") != std::string::npos);
-    CHECK(log.find(" " + std::to_string(io::number_nodes(mesh).points()) + " vertices") != std::string::npos);
+    const auto found = check("xdmf", folder, 3);
+    INFO(found.log);
+    CHECK(found.status == 0);
+    CHECK(found.log.find("measure 6.000000000") != std::string::npos);
+    CHECK(found.log.find(" " + std::to_string(io::number_nodes(mesh).points()) + " vertices") !=
+          std::string::npos);
     const auto topology = testing::file_content(folder / "ranks.xdmf");
     CHECK((topology.find("\"Triangle_6\"") != std::string::npos) == (mesh.mid_nodes != nullptr));
   }
@@ -123,15 +121,15 @@ TEST_CASE("what the arrays say of each vertex, element and side is the same in a
   io::rank_writer<io::xdmf_format>{.ranks = 3}(mesh, folder);
   io::rank_writer<io::vtkhdf_format>{.ranks = 3, .ghosts = true}(mesh, folder);
   io::rank_writer<io::mfem_format>{.ranks = 3}(mesh, folder);
-  const auto [status, log] = check("agreement", folder, 3);
-  INFO(log);
-  CHECK(status == 0);
+  const auto found = check("agreement", folder, 3);
+  INFO(found.log);
+  CHECK(found.status == 0);
   std::map<local_id, int> sides; // of the boundary; those between two ranks are listed by both
   for (std::size_t t = 0; t < mesh.skeleton.sides.size(); ++t)
     if (mesh.skeleton.subdomains[t][1] == no_id)
       ++sides[mesh.skeleton.side_hosts[t]];
   REQUIRE(sides.size() > 10);
-  const auto counts = log.substr(log.find("sides by cad: {") + 14); // "{0: 72, 4: 24}"
+  const auto counts = found.log.substr(found.log.find("sides by cad: {") + 14); // "{0: 72, 4: 24}"
   for (const auto& [host, count] : sides) {
     const auto of_host = std::to_string(host) + ": " + std::to_string(count);
     CHECK((counts.find("{" + of_host + ",") == 0 || counts.find(" " + of_host + ",") != std::string::npos ||
@@ -145,7 +143,7 @@ TEST_CASE("what the arrays say of each vertex, element and side is the same in a
     const std::string reverse = "import h5py; f = h5py.File('" + (spoilt / "ranks.h5").string() +
                                 "', 'r+'); f['" + array + "'][:] = f['" + array + "'][:][::-1]";
     REQUIRE(std::system(("/usr/bin/python3 -c \"" + reverse + "\"").c_str()) == 0);
-    CHECK(check("agreement", spoilt, 3).first != 0);
+    CHECK(check("agreement", spoilt, 3).status != 0);
   }
 }
 
@@ -159,14 +157,14 @@ TEST_CASE("nodes in the middle of edges are the same in all formats") {
   io::rank_writer<io::xdmf_format>{.ranks = 5}(mesh, folder);
   io::rank_writer<io::vtkhdf_format>{.ranks = 5}(mesh, folder);
   io::rank_writer<io::mfem_format>{.ranks = 5}(mesh, folder);
-  const auto [status, log] = check("agreement", folder, 5);
-  INFO(log);
-  CHECK(status == 0);
+  const auto found = check("agreement", folder, 5);
+  INFO(found.log);
+  CHECK(found.status == 0);
   auto spoilt = testing::file_content(folder / "mesh.000002");
   const auto last = spoilt.rfind('\n', spoilt.find("\nmfem_serial_mesh_end") - 2);
   spoilt[last + 1] = spoilt[last + 1] == '-' ? ' ' : '-'; // one node elsewhere
   testing::write_content(folder / "mesh.000002", spoilt);
-  CHECK(check("agreement", folder, 5).first != 0);
+  CHECK(check("agreement", folder, 5).status != 0);
 }
 
 TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {
@@ -174,12 +172,12 @@ TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {
     return;
   const testing::scratch_folder folder("ranks_vtkhdf");
   io::rank_writer<io::vtkhdf_format>{.ranks = 3, .ghosts = true}(cubes.distributed(), folder);
-  const auto [status, log] = check("vtkhdf", folder, 3);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.starts_with(one_mesh));
-  CHECK(log.find(" 0 ghosts") == std::string::npos);
-  CHECK(check("vtkhdf", folder, 4).first != 0); // there is no rank 3
+  const auto found = check("vtkhdf", folder, 3);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.starts_with(one_mesh));
+  CHECK(found.log.find(" 0 ghosts") == std::string::npos);
+  CHECK(check("vtkhdf", folder, 4).status != 0); // there is no rank 3
 }
 
 TEST_CASE("VTKHDF of second order: VTK reads nodes in the middle of edges, with and without ghosts") {
@@ -189,11 +187,11 @@ TEST_CASE("VTKHDF of second order: VTK reads nodes in the middle of edges, with 
   for (const bool ghosts : {false, true}) {
     const testing::scratch_folder folder("ranks_vtkhdf_quadratic");
     io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = ghosts}(mesh, folder);
-    const auto [status, log] = check("vtkhdf", folder, 4);
-    INFO(log);
-    CHECK(status == 0);
-    CHECK(log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
-    CHECK((log.find(" 0 ghosts") == std::string::npos) == ghosts);
+    const auto found = check("vtkhdf", folder, 4);
+    INFO(found.log);
+    CHECK(found.status == 0);
+    CHECK(found.log.starts_with("1296 elements, 2197 vertices, 432 boundary sides, measure 1.000000000"));
+    CHECK((found.log.find(" 0 ghosts") == std::string::npos) == ghosts);
   }
 }
 
@@ -204,10 +202,10 @@ TEST_CASE("VTKHDF: VTK reads triangles") {
   const auto result = generate<2>(domain, uniform_size(0.2), parameters<>{}.with_options({.subdomains = 7}));
   const testing::scratch_folder folder("ranks_vtkhdf_triangles");
   io::rank_writer<io::vtkhdf_format>{.ranks = 3}(result.mesh, folder);
-  const auto [status, log] = check("vtkhdf", folder, 3);
-  INFO(log);
-  CHECK(status == 0);
-  CHECK(log.find("measure 5.750000000") != std::string::npos);
+  const auto found = check("vtkhdf", folder, 3);
+  INFO(found.log);
+  CHECK(found.status == 0);
+  CHECK(found.log.find("measure 5.750000000") != std::string::npos);
 }
 
 TEST_CASE("each rank's share is a task, and the bytes are the same by every executor") {

@@ -132,7 +132,7 @@ void check_files(bool binary, bool quadratic) {
   CHECK(all.names.count("solid '2' <&>") == 1);
   double volume = 0;
   for (const auto& [tag, v] : all.tetrahedra) {
-    const auto at = [&](std::size_t k) { return all.nodes.at(v[k]); };
+    const auto at = [&, v = v](std::size_t k) { return all.nodes.at(v[k]); };
     const double of_element = dot(cross(at(1) - at(0), at(2) - at(0)), at(3) - at(0)) / 6;
     CHECK(of_element > 0);
     volume += of_element;

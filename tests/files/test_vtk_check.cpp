@@ -6,6 +6,7 @@
 #include "dovetail/files/zlib.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
 #include "files/scratch_folder.hpp"
+#include "files/script_outcome.hpp"
 #include "files/stacked_cubes.hpp"
 
 #include <doctest/doctest.h>
@@ -19,13 +20,8 @@ namespace {
 
 const std::string python = "/usr/bin/python3";
 
-/// The script's exit status (0: valid) and what it printed.
-std::pair<int, std::string> check(const std::filesystem::path& folder) {
-  const auto log = folder / "check.json";
-  const int status = std::system(
-      (python + " " DOVETAIL_SCRIPTS "/check_mesh.py '" + folder.string() + "' > '" + log.string() + "' 2>&1")
-          .c_str());
-  return {status, testing::file_content(log)};
+testing::script_outcome check(const std::filesystem::path& folder) {
+  return testing::run_script(DOVETAIL_SCRIPTS "/check_mesh.py '" + folder.string() + "'", folder);
 }
 
 bool has_vtk() {
@@ -45,16 +41,15 @@ TEST_CASE("VTK reads a valid mesh, for any number of files") {
   for (const int files : {0, 1, 3, 100}) {
     const testing::scratch_folder folder("vtk_check");
     io::vtu_writer{.files = files}(cubes.distributed(), folder);
-    const auto [status, text] = check(folder);
-    const std::string& log = text; // named, since clang 14 captures no structured binding
-    INFO(log);
-    CHECK(status == 0);
-    CHECK(log.find("\"elements\": 3072") != std::string::npos);
-    CHECK(log.find("\"vertices\": 729") != std::string::npos);
-    CHECK(log.find("\"subdomains\": 8") != std::string::npos);
-    CHECK(log.find("\"solid \\\"1\\\" <&>\"") != std::string::npos);
-    CHECK(log.find("\"side walls\": 4.0") != std::string::npos);
-    CHECK(log.find("\"euler_characteristic\": 2") != std::string::npos);
+    const auto found = check(folder);
+    INFO(found.log);
+    CHECK(found.status == 0);
+    CHECK(found.log.find("\"elements\": 3072") != std::string::npos);
+    CHECK(found.log.find("\"vertices\": 729") != std::string::npos);
+    CHECK(found.log.find("\"subdomains\": 8") != std::string::npos);
+    CHECK(found.log.find("\"solid \\\"1\\\" <&>\"") != std::string::npos);
+    CHECK(found.log.find("\"side walls\": 4.0") != std::string::npos);
+    CHECK(found.log.find("\"euler_characteristic\": 2") != std::string::npos);
   }
 }
 
@@ -75,11 +70,11 @@ TEST_CASE("the check finds a crack, an inverted element and a wrong surface") {
   };
   const auto inverted =
       spoil([](mesh_piece& piece) { std::swap(piece.mesh.elements[9][0], piece.mesh.elements[9][1]); });
-  CHECK(inverted.first != 0);
-  CHECK(inverted.second.find("without positive volume") != std::string::npos);
+  CHECK(inverted.status != 0);
+  CHECK(inverted.log.find("without positive volume") != std::string::npos);
   const auto cracked = spoil([](mesh_piece& piece) { piece.mesh.elements[9] = piece.mesh.elements[8]; });
-  CHECK(cracked.first != 0);
-  CHECK(cracked.second.find("surface.vtp is not the boundary") != std::string::npos);
+  CHECK(cracked.status != 0);
+  CHECK(cracked.log.find("surface.vtp is not the boundary") != std::string::npos);
 }
 
 TEST_CASE("everything that VTK's writer can write is read: text, base64, raw, zlib, both byte orders") {
