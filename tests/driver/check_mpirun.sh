@@ -186,6 +186,11 @@ resume_on() {
   [[ $(figure mesh_hash several) == "$(figure mesh_hash whole)" ]] || fault "another hash after resuming"
 }
 
+# Release candidates of Open MPI 6.0: ranks crash in MPI when another one is gone, and may be told of first; an mpirun that
+# is asked to stop kills its ranks at once, so that they can neither say so nor take away what is unfinished.
+mpi_is_unfinished=false
+"$mpirun" --version | grep -q "(Open MPI) 6.0.0rc" && mpi_is_unfinished=true
+
 for victim in first last; do
   for stage in planning partition intersection; do
     start_until 3 "$stage" "${long[@]}" # its line comes at its end
@@ -198,7 +203,7 @@ for victim in first last; do
     ((status == 1)) || fault "exit code is $status, not 1"
     [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
     grep -q "^dovetail: .*ended by signal 11" "$sandbox/stderr" || fault "the line does not say what happened"
-    [[ $victim == first ]] || grep -q "^dovetail: rank 2: " "$sandbox/stderr" || fault "the line does not name the rank"
+    $mpi_is_unfinished || [[ $victim == first ]] || grep -q "^dovetail: rank 2: " "$sandbox/stderr" || fault "the line does not name the rank"
     nothing_left several
   done
 done
@@ -211,6 +216,17 @@ wait_for_process 10
 nothing_left several
 resume_on 1
 
+says_that_it_was_stopped() {
+  ((status != 0)) || fault "exit code is 0"
+  if $mpi_is_unfinished; then
+    echo "not tried, since mpirun kills at once: what ranks say that are stopped"
+    return
+  fi
+  [[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
+  grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
+  nothing_left several
+}
+
 # 4. A run that is stopped. An mpirun that is asked to stop waits a second before it asks the ranks to.
 long[3]=0.016
 fresh whole
@@ -219,10 +235,7 @@ on_ranks 1 whole "${long[@]}" --workers 2
 start_until 4 intersection "${long[@]}"
 kill -TERM $process
 wait_for_process 10
-((status != 0)) || fault "exit code is 0"
-[[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
-grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
-nothing_left several
+says_that_it_was_stopped
 resume_on 2
 
 # 5. Spools on disks that the other ranks do not see, of which one is lost.
@@ -235,8 +248,7 @@ on_ranks 4 several "${mesh[@]}" --format vtu,msh --spool "$disks"
 start_until 3 intersection "${long[@]}" --spool "$disks"
 kill -TERM $process
 wait_for_process 10
-((status != 0)) || fault "exit code is 0"
-grep -qE "^dovetail: (rank [0-9]: )?stopped; --resume goes on" "$sandbox/stderr" || fault "the line does not say that it was stopped"
+says_that_it_was_stopped
 for rank in 0 1 2; do
   [[ $(find "$disks/rank_$rank" -name '*.blob') ]] || fault "rank $rank has kept nothing"
 done

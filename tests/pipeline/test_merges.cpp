@@ -312,7 +312,8 @@ TEST_CASE("Regions that stay folded over ask for fewer subdomains, as long as th
   BRep_Builder().Add(balls, BRepAlgoAPI_Cut(ball, BRepPrimAPI_MakeSphere(0.5).Shape()).Shape());
   BRep_Builder().Add(balls, BRepPrimAPI_MakeSphere(0.25).Shape());
   const any_geometry two(occt_shape_from(balls).model);
-  for (const auto& [model, parts, can_be_fewer] : {std::tuple{shell(0.5), 4, true}, {two, 2, false}}) {
+  for (const auto& [model, count, can_be_fewer] : {std::tuple{shell(0.5), 4, true}, {two, 2, false}}) {
+    const int parts = count; // named, since clang 14 captures no structured binding
     CAPTURE(parts);
     decomposed_shell given(model, parts);
     REQUIRE(given.pieces.parts == parts);
