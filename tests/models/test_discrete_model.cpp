@@ -156,10 +156,15 @@ TEST_CASE("a torus, whose charts have no natural start, passes all checks") {
 }
 
 TEST_CASE("the charts of a coarse, uneven surface go through its points") {
-  for (const auto& [n, seed] : {std::pair(5, 2), {5, 6}, {5, 11}, {6, 8}, {6, 9}, {8, 1}}) {
-    CAPTURE(n);
-    CAPTURE(seed);
-    const auto soup = uneven_sphere(n, seed);
+  struct uneven {
+    int n;
+    double seed;
+  };
+  for (const uneven& of :
+       {uneven{5, 2}, uneven{5, 6}, uneven{5, 11}, uneven{6, 8}, uneven{6, 9}, uneven{8, 1}}) {
+    CAPTURE(of.n);
+    CAPTURE(of.seed);
+    const auto soup = uneven_sphere(of.n, of.seed);
     const auto model = model_of(soup);
     for (const vec3 p : soup.points)
       CHECK(away_from(model.surface().mesh, p) < 1e-9);

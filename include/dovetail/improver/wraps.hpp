@@ -5,6 +5,10 @@
 #include "dovetail/core/wrapped_policy.hpp"
 #include "dovetail/improver/concepts.hpp"
 
+#include <concepts>
+#include <type_traits>
+#include <utility>
+
 namespace dovetail::improvement {
 
 /// Base of an improver that does something before or after another one: it has the traits of `Improver` and
@@ -37,5 +41,17 @@ struct wraps : wrapped_policy<Self, Improver> {
     return wrapped(mesh, frozen, size, host);
   }
 };
+
+/// Whether an improver derives from `wraps` of one that improves triangles on a surface, and has a call of
+/// its own that hides that one: its triangles would be improved without their surface.
+template <class Improver>
+constexpr bool hides_surface_call() {
+  if constexpr (requires(const Improver& improver) { improver.wrapped; }) {
+    using wrapped_improver = std::remove_cvref_t<decltype(std::declval<const Improver&>().wrapped)>;
+    if constexpr (std::derived_from<Improver, wraps<Improver, wrapped_improver>>)
+      return surface_improver<wrapped_improver> && improver<Improver, 2> && !surface_improver<Improver>;
+  }
+  return false;
+}
 
 } // namespace dovetail::improvement

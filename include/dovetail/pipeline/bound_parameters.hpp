@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/policy.hpp"
+#include "dovetail/improver/wraps.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/parallel/any_executor.hpp"
@@ -26,7 +27,11 @@ consteval bool policies_fit() {
   constexpr bool improves = improver<decltype(Given::improve_it), D>;
   static_assert(fits, "generate<D> needs a mesher of elements of dimension D, that keeps its boundary");
   static_assert(improves, "generate<D> needs an improver of elements of dimension D");
-  return fits && improves;
+  constexpr bool knows_surface = D == 3 || !improvement::hides_surface_call<decltype(Given::improve_it)>();
+  static_assert(knows_surface,
+                "this improver's own call hides the wrapped one's call with a surface: add "
+                "'using wraps::operator();' and a call with a surface_host, if that is to be another one");
+  return fits && improves && knows_surface;
 }
 
 /// Whether meshers and improver may run where the executor runs them, as far as types say.

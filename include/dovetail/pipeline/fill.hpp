@@ -20,6 +20,7 @@
 #include "dovetail/sizing/surface_sizes.hpp"
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -97,6 +98,16 @@ filled_surface fill_by(const M& mesh_it, const I& improve, const simplicial_mesh
   return fill_by({dovetail::elements_per_inverse_cubed_size(mesh_it), mesh}, surface, size, options);
 }
 
+/// Whether `fill` can call these; where not, the compiler's first error says what it needs.
+template <class M, class I>
+consteval bool can_fill() {
+  constexpr bool meshes = boundary_keeping_mesher<M, 3>;
+  constexpr bool improves = improver<I, 3>;
+  static_assert(meshes, "fill needs a mesher of tetrahedra that keeps its boundary (mesher/concepts.hpp)");
+  static_assert(improves, "fill needs an improver of tetrahedra (improver/concepts.hpp)");
+  return meshes && improves;
+}
+
 } // namespace detail
 
 /// Meshes what closed triangles enclose, in edges of the given sizes as far as these triangles allow. Every
@@ -121,17 +132,22 @@ filled_surface fill_by(const M& mesh_it, const I& improve, const simplicial_mesh
 /// \param options growth of sizes, marks of regions, executor, largest prediction
 /// \param mesh_it keeps the boundary it is given
 /// \param improve improves a piece inside its boundary
-template <sizing_field H, boundary_keeping_mesher<3> M = mesher::native, improver<3> I = native_improver>
+template <class H, class M = mesher::native, class I = native_improver>
+  requires(!std::convertible_to<const H&, fill_options>)
 filled_surface fill(const simplicial_mesh<2>& surface, const H& size, const fill_options& options = {},
                     const M& mesh_it = {}, const I& improve = {}) {
-  return detail::fill_by(mesh_it, improve, surface, erased_sizing(size), options);
+  constexpr bool is_field = sizing_field<H>;
+  static_assert(is_field, "fill(surface, size) takes a sizing_field (sizing/concepts.hpp)");
+  if constexpr (is_field && detail::can_fill<M, I>())
+    return detail::fill_by(mesh_it, improve, surface, erased_sizing(size), options);
 }
 
 /// The same in sizes of the surface: the mean edge at each of its points, growing inwards.
-template <boundary_keeping_mesher<3> M = mesher::native, improver<3> I = native_improver>
+template <class M = mesher::native, class I = native_improver>
 filled_surface fill(const simplicial_mesh<2>& surface, const fill_options& options = {},
                     const M& mesh_it = {}, const I& improve = {}) {
-  return detail::fill_by(mesh_it, improve, surface, {}, options);
+  if constexpr (detail::can_fill<M, I>())
+    return detail::fill_by(mesh_it, improve, surface, {}, options);
 }
 
 } // namespace dovetail

@@ -146,10 +146,13 @@ adapted<D> adapt(const adaptable_mesh<D>& old, const Sizes& sizes, const Paramet
 /// Where there is no model, that of the first adaptation, `adapted::model`, serves all the others. Throws
 /// what the first form throws, and what `mesh_again` does.
 /// \param model the model that `old` is a mesh of; without it one is made of its boundary
-template <int D, geometry_model G, class Sizes, class Parameters>
+template <int D, class G, class Sizes, class Parameters>
 adapted<D> adapt(const G& model, const adaptable_mesh<D>& old, const Sizes& sizes, const Parameters& policies,
                  const adaptation_options& options = {}) {
-  if constexpr (detail::checked_sizes<Sizes>() && detail::checked_parameters<D, Parameters>()) {
+  constexpr bool is_model = geometry_model<G>;
+  static_assert(is_model,
+                "adapt<D>(model, mesh, sizes, policies) takes a geometry_model (geometry/concepts.hpp)");
+  if constexpr (is_model && detail::checked_sizes<Sizes>() && detail::checked_parameters<D, Parameters>()) {
     const auto& given = bind_parameters<D>(policies);
     const auto size = detail::sizes_to_adapt_to(old, sizes, options);
     return mesh_again<D>(model_of_mesh<D>(any_geometry(model), old), size, given);

@@ -30,6 +30,8 @@ struct rank_writer {
   static_assert(rank_format<Format, 2> || rank_format<Format, 3> || shared_rank_format<Format, 2> ||
                     shared_rank_format<Format, 3>,
                 "rank_writer takes a rank_format or a shared_rank_format (solver/concepts.hpp)");
+  static_assert(redistributor<Redistributor, 2> || redistributor<Redistributor, 3>,
+                "rank_writer goes by a redistributor (distributed/concepts.hpp)");
 
   int ranks = 1;
   Format format = {};              ///< what files are written

@@ -9,6 +9,9 @@
 #include "dovetail/pipeline/generate.hpp"
 // near miss 5: a mesher of tetrahedra for a background mesh of triangles
 // error 5: needs a mesher of elements of dimension D
+// near miss 6: an improver around another one whose call hides the one with a surface
+// first error 6: hides the wrapped one's call with a surface
+#include "dovetail/improver/wraps.hpp"
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -24,6 +27,16 @@ struct improver_of_triangles {
                               const dovetail::any_sizing&) const;
 };
 
+struct timed : dovetail::improvement::wraps<timed, dovetail::improvement::native> {
+#if NEAR_MISS != 6
+  using wraps::operator();
+#endif
+  dovetail::report operator()(dovetail::simplicial_mesh<2>& mesh, const dovetail::frozen_entities<2>& frozen,
+                              const dovetail::any_sizing& size) const {
+    return wrapped(mesh, frozen, size);
+  }
+};
+
 void call(const dovetail::plane_domain& model) {
   using namespace dovetail;
   const uniform_size size(1);
@@ -37,7 +50,10 @@ void call(const dovetail::plane_domain& model) {
   generate<3>(model, size, my_mesher{});
 #elif NEAR_MISS == 5
   make_background<2>(model, size, parameters<>{}.with_mesher(my_mesher{}));
+#elif NEAR_MISS == 6
+  generate<2>(model, size, parameters<>{}.with_improver(timed{}));
 #else
+  generate<2>(model, size, parameters<>{}.with_improver(timed{}));
   generate<3>(model, size, parameters<>{}.with_mesher(my_mesher{}).with_options({.subdomains = 4}));
   generate<3>(model, size, parameters<>{});
 #endif
