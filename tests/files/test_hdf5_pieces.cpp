@@ -188,8 +188,15 @@ TEST_CASE("a file that would not fit leaves no trace, and the error names it and
   for (const std::size_t bytes : {0, 500, 10000, 20000}) {
     CAPTURE(bytes);
     const testing::file_size_limit limit(bytes);
-    CHECK_THROWS_WITH_AS(io::hdf5_writer{}(cubes.distributed(), folder),
-                         doctest::Contains("mesh_0000.vtkhdf.part: HDF5: File too large"), io_error);
+    try {
+      io::hdf5_writer{}(cubes.distributed(), folder);
+      FAIL_CHECK("it fits");
+    } catch (const io_error& error) {
+      const std::string said = error.what();
+      CAPTURE(said);
+      CHECK(said.find("mesh_0000.vtkhdf.part: ") != std::string::npos);
+      CHECK(said.ends_with(": File too large"));
+    }
     CHECK(testing::content_of(folder).empty());
   }
 }

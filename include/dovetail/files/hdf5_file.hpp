@@ -98,6 +98,7 @@ public:
       if (file_ < 0)
         fail("open");
     } else {
+      require_room();
       // The oldest form of groups, which HDF5 2 makes only when told to: newer ones say when they were made.
       const handle oldest(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, *this);
       require(H5Pset_libver_bounds(oldest.id, H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST));
@@ -110,7 +111,7 @@ public:
   hdf5_file& operator=(const hdf5_file&) = delete;
   ~hdf5_file() {
     const hdf5_use use;
-    if (file_ >= 0)
+    if (file_ >= 0 && is_flushed(file_))
       H5Fclose(file_);
   }
 
@@ -250,7 +251,7 @@ public:
     const hdf5_use use;
     const hid_t file = file_;
     file_ = -1;
-    require(H5Fclose(file));
+    require(is_flushed(file) ? H5Fclose(file) : -1);
     const int descriptor = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC);
     const bool is_there = descriptor >= 0 && ::fsync(descriptor) == 0;
     if (descriptor >= 0)
@@ -296,6 +297,26 @@ private:
                       H5Aclose, *this);
     require(H5Awrite(made.id, type, values));
   }
+  /// Throws where there is no room to begin the file: HDF5 2 ends the process then. What else is wrong with
+  /// it HDF5 says itself.
+  void require_room() const {
+    const int descriptor = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0)
+      return;
+    const std::array<char, 64> zeros{};
+    ssize_t wrote = 1;
+    for (int bytes = 0; bytes < 4096 && wrote > 0; bytes += static_cast<int>(wrote))
+      wrote = ::write(descriptor, zeros.data(), zeros.size());
+    const int reason = errno;
+    ::close(descriptor);
+    if (wrote < 0)
+      throw io_error("cannot create " + path_.string() + ": " + std::strerror(reason));
+  }
+
+  /// Whether all is in the file. One that is not, on a full disk say, stays open: HDF5 2 ends the process
+  /// where it cannot write what is left of a file that it closes.
+  static bool is_flushed(hid_t file) { return H5Fflush(file, H5F_SCOPE_LOCAL) >= 0; }
+
   void require(std::int64_t status) const {
     if (status < 0)
       fail("write");
