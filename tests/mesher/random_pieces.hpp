@@ -148,7 +148,9 @@ inline surface needle(dice& d) {
 /// A wheel of long thin triangles from one rim to the other.
 inline surface lantern(dice& d) {
   const int n = d.whole(10, 60);
-  return tower({ring(n, 1, 0, 0), ring(n, 1, d.between(-0.5, 0.5), d.power_between(-2, 2))});
+  const double height = d.power_between(-2, 2); // drawn first: compilers order arguments differently
+  const double turn = d.between(-0.5, 0.5);
+  return tower({ring(n, 1, 0, 0), ring(n, 1, turn, height)});
 }
 
 /// A box of stretched cells.
@@ -186,7 +188,8 @@ inline surface nested_shells(dice& d) {
 }
 
 inline surface squeezed_torus(dice& d) {
-  auto s = shapes::torus(d.whole(4, 10), 1, d.between(0.1, 0.6));
+  const double small = d.between(0.1, 0.6);
+  auto s = shapes::torus(d.whole(4, 10), 1, small);
   const double squeeze = d.power_between(-4, 0), shear = d.between(-2, 2);
   turn_about_axes(s, d);
   for (vec3& p : s.points) {
