@@ -1,4 +1,4 @@
-"""dovetail as a Conan 2 package: `conan create packaging/conan` in a clone."""
+"""dovetail as a Conan 2 package: `conan create packaging/conan -s compiler.cppstd=20` in a clone."""
 
 import os
 import re

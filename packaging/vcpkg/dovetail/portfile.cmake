@@ -1,4 +1,4 @@
-# The clone that this port is in is what it installs: vcpkg install dovetail --overlay-ports=packaging/vcpkg
+# The clone that this port is in is what it installs: vcpkg install dovetail --overlay-ports=packaging/vcpkg --no-binarycaching
 get_filename_component(SOURCE_PATH "${CURRENT_PORT_DIR}/../../.." ABSOLUTE)
 
 set(VCPKG_BUILD_TYPE release) # nothing is compiled
