@@ -22,8 +22,9 @@ namespace dovetail::improvement {
 /// Models `improver<native_by<Operations>, D>` for D = 2 and 3.
 template <class Operations>
 struct native_by {
-  static_assert(requires { typename Operations::template on_tetrahedra<minimum_dihedral>; },
-                "native_by takes lists of operations (improver/operations.hpp)");
+  static_assert(
+      requires { typename Operations::template on_tetrahedra<minimum_dihedral>; },
+      "native_by takes lists of operations (improver/operations.hpp)");
 
   static constexpr improver_traits traits = native::traits;
   native parameters = {}; ///< what it goes by
