@@ -12,7 +12,6 @@
 #include <limits>
 #include <numbers>
 #include <span>
-#include <utility>
 
 using namespace dovetail;
 using namespace dovetail::testing;
