@@ -152,10 +152,10 @@ bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_vi
   return of_tetrahedra;
 }
 
-io::loaded_mesh read_any_mesh(const std::filesystem::path& path, io::element_order elements) {
+io::loaded_mesh read_any_mesh(const std::filesystem::path& path, io::element_order elements, bool fields) {
   const other_format format = format_of(path);
   if (format == other_format::none)
-    return io::read_mesh(path, io::zlib_expand, false, elements);
+    return io::read_mesh(path, io::zlib_expand, fields, elements);
   return io::detail::joined_pieces(
       path, [&](const io::piece_visitor& f) { for_each_of_other(format, path, f, elements); });
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Meshes of every format that is written, whether or not other commands than those that judge them read it.
+/// Meshes of every format that is written.
 #pragma once
 
 #include "dovetail/files/piece_visitor.hpp"
@@ -28,7 +28,7 @@ bool for_each_piece_of_any(const std::filesystem::path& path, const io::piece_vi
 
 /// As `io::read_mesh`, of any format.
 io::loaded_mesh read_any_mesh(const std::filesystem::path& path,
-                              io::element_order elements = io::element_order::first);
+                              io::element_order elements = io::element_order::first, bool fields = false);
 
 /// Calls `f` with the mesh of the corners.
 template <class F>

@@ -1,3 +1,4 @@
+#include "any_mesh_file.hpp"
 #include "carried_fields.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
@@ -13,8 +14,6 @@
 #include "stop_request.hpp"
 #include "terminal_progress.hpp"
 
-#include "dovetail/files/read_mesh.hpp"
-#include "dovetail/files/zlib.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/solver/adapt.hpp"
 
@@ -215,7 +214,8 @@ int run_adapt(const adapt_options& options) {
   if (options.fields && !is_vtu(options.out))
     throw command_line_error("--fields: values are written to files with the extension .vtu, not to " +
                              options.out);
-  io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand, options.fields);
+  io::loaded_mesh loaded =
+      read_any_mesh(find_any_mesh(options.input), io::element_order::first, options.fields);
   warn_of_part(loaded, options.input);
   if (options.fields && !loaded.passed_over.empty())
     std::fprintf(stderr, "warning: %s: not carried over: %s\n", options.input.c_str(),

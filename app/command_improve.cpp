@@ -1,3 +1,4 @@
+#include "any_mesh_file.hpp"
 #include "commands.hpp"
 #include "failure.hpp"
 #include "improvable_mesh.hpp"
@@ -6,8 +7,6 @@
 #include "quality_change.hpp"
 #include "run_figures.hpp"
 
-#include "dovetail/files/read_mesh.hpp"
-#include "dovetail/files/zlib.hpp"
 #include "dovetail/mesh/quality.hpp"
 
 #include <cstdio>
@@ -43,7 +42,7 @@ void improve_and_report(const any_improver<D>& improve, io::loaded_mesh loaded,
 int run_improve(const improve_options& options) {
   const auto improve_tetrahedra = make_improver<3>(options.preset, "--preset");
   check_can_write(options.out);
-  io::loaded_mesh loaded = io::read_mesh(options.input, io::zlib_expand);
+  io::loaded_mesh loaded = read_any_mesh(find_any_mesh(options.input));
   const std::string lost = left_out(loaded);
   warn_of_part(loaded, options.input);
   if (is_of_triangles(loaded))

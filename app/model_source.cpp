@@ -286,11 +286,23 @@ std::optional<automatic_points> given_sizes::points(const any_geometry& model, b
   return automatic_points(model, options, divided_loop{run});
 }
 
-any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {
-  std::error_code missing;
+namespace {
+
+bool is_builtin(const std::string& name) {
   const auto names = builtin_model_names();
-  if (!std::filesystem::exists(file_or_name, missing)) {
-    if (std::find(names.begin(), names.end(), file_or_name) != names.end())
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_there(const std::string& file) {
+  std::error_code missing;
+  return std::filesystem::exists(file, missing);
+}
+
+} // namespace
+
+any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {
+  if (!is_there(file_or_name)) {
+    if (is_builtin(file_or_name))
       return any_geometry(builtin_model(file_or_name).model);
     throw input_error(file_or_name + ": there is no such file, and no built-in model of that name");
   }
@@ -303,6 +315,9 @@ any_geometry load_geometry(const std::string& file_or_name, const std::string& u
 model_source load_model(const model_options& options, int dimension, const any_executor& run) {
   if (!options.input.empty() && !options.model.empty())
     throw command_line_error("give a file or --model, not both");
+  if (is_builtin(options.input) && !is_there(options.input))
+    throw input_error(options.input + ": there is no such file; --model " + options.input +
+                      " is the built-in model of that name");
   if (is_drawing(options.input) && (options.curvature || options.proximity || options.growth))
     throw command_line_error("--curvature, --proximity, --growth: " + options.input +
                              " is a plane domain, without curved faces and walls; give --size or --sizing");

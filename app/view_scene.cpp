@@ -115,9 +115,12 @@ view_scene scene_of_triangles(io::loaded_mesh loaded) {
   view_scene scene;
   scene.dimension = 2;
   const tag_names names = std::move(loaded.triangle_names);
+  const std::vector<local_id> subdomains = std::move(loaded.triangle_subdomains);
   simplicial_mesh<2> mesh = take_triangles(std::move(loaded));
   mesh.tags.resize(mesh.elements.size(), 0);
-  scene.groups = scene.pieces = scene.materials = labels_of(mesh.tags, names, "group");
+  scene.groups = scene.materials = labels_of(mesh.tags, names, "group");
+  scene.pieces =
+      subdomains.size() == mesh.elements.size() ? labels_of(subdomains, {}, "piece") : scene.groups;
   scene.points = std::move(mesh.points);
   scene.triangles = std::move(mesh.elements);
   scene.outer = scene.triangles.size();

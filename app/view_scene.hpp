@@ -30,7 +30,7 @@ struct outline_edge {
 };
 
 /// A mesh as pictures and pages show it. Pieces are the subdomains of the file, else its materials; of
-/// triangles the groups, since no file says which subdomain they are of.
+/// triangles the groups.
 struct view_scene {
   int dimension = 3;         ///< of the elements
   bool second_order = false; ///< of the file's elements: only the corners are here

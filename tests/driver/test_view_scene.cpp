@@ -105,6 +105,16 @@ TEST_CASE("triangles are elements of their own, whose groups are pieces") {
   CHECK(scene.least_angle == doctest::Approx(45));
 }
 
+TEST_CASE("subdomains of triangles are their pieces, where the file has them") {
+  io::loaded_mesh flat = testing::two_squares();
+  flat.triangle_subdomains = {3, 5, 5, 3};
+  const view_scene scene = scene_of(flat);
+  CHECK(scene.pieces.names == names{"piece 3", "piece 5"});
+  CHECK(scene.pieces.of == std::vector<local_id>{0, 1, 1, 0});
+  CHECK(scene.groups.of == std::vector<local_id>{0, 0, 1, 1});
+  CHECK(scene.centres[0].x == doctest::Approx(1));
+}
+
 TEST_CASE("a part has all that fits, and says nothing of it") {
   const view_scene scene = scene_of(testing::cubes_in_pieces(2));
   const view_part part = part_that_fits(scene, 24 + 4 * 12);

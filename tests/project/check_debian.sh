@@ -1,21 +1,24 @@
 #!/bin/bash
-# The Debian package of the headers is made from a clone; a program is compiled against what is in it, with and without
-# CMake. The driver's package has the same rules, but compiling it is left to who wants it.
-#   check_debian.sh <source directory> <work directory> <compiler>
+# The Debian packages are made from a clone: of the headers, against which a program is compiled with and without CMake, and
+# of the driver, which is not compiled again for it.
+#   check_debian.sh <source directory> <work directory> <compiler> <build directory with the driver, or "">
 set -euo pipefail
 source_directory=$1
 work=$2
 compiler=$3
+export DOVETAIL_DRIVER_BUILD=$4 DEB_BUILD_OPTIONS=noautodbgsym # such a driver has no symbols to debug with
+needs=() which=-b # all packages, or those for any architecture
+[[ $DOVETAIL_DRIVER_BUILD ]] || needs=(-A) which=-A
 
 command -v dh pkg-config dpkg-buildpackage >/dev/null || { echo "skipped: debhelper is not installed"; exit 77; }
 rm -rf "$work"
-mkdir -p "$work/dovetail" "$work/installed"
+mkdir -p "$work/dovetail" "$work/installed" "$work/driver"
 cd "$source_directory"
 cp -r app cmake debian include CMakeLists.txt LICENSE "$work/dovetail"
 
 cd "$work/dovetail"
-dpkg-checkbuilddeps -A || { echo "skipped: a package that the build needs is missing"; exit 77; }
-if ! dpkg-buildpackage -A -us -uc >"$work/log" 2>&1; then
+dpkg-checkbuilddeps "${needs[@]}" || { echo "skipped: a package that the build needs is missing"; exit 77; }
+if ! dpkg-buildpackage $which -us -uc >"$work/log" 2>&1; then
   tail -n 40 "$work/log"
   exit 1
 fi
@@ -51,4 +54,26 @@ export PKG_CONFIG_PATH=$prefix/share/pkgconfig
 read -ra flags < <(pkg-config --cflags --libs dovetail)
 "$compiler" "$consumer/main.cpp" "${flags[@]}" -o "$work/without_cmake"
 "$work/without_cmake"
+
+[[ $DOVETAIL_DRIVER_BUILD ]] || { rm -rf "$work"; exit 0; }
+
+# The driver runs from its package, which depends on all that it links and loads, and has its manual pages.
+driver=$work/dovetail_${version}_$(dpkg-architecture --query DEB_HOST_ARCH).deb
+dpkg-deb -x "$driver" "$work/driver"
+depends=$(dpkg-deb --field "$driver" Depends)
+for library in libc6 libocct-data-exchange libmetis libtet1.5; do
+  [[ $depends == *$library* ]] || { echo "the driver does not depend on $library: $depends"; exit 1; }
+done
+dovetail=$work/driver/usr/bin/dovetail
+if readelf --dynamic "$dovetail" | grep -F "$DOVETAIL_DRIVER_BUILD"; then
+  echo "the driver looks for libraries where it was built"
+  exit 1
+fi
+commands=$("$dovetail" --help | sed -n '/^Subcommands:/,$ s/^  \([a-z]*\) .*/\1/p')
+[[ $commands == *mesh* ]] || { echo "no commands in --help"; exit 1; }
+for command in $commands; do
+  [[ -s $work/driver/usr/share/man/man1/dovetail-$command.1.gz ]] || { echo "no manual page of $command"; exit 1; }
+done
+"$dovetail" mesh --model aircraft --elements 20000 --out "$work/mesh" --quiet
+"$dovetail" check "$work/mesh"
 rm -rf "$work"

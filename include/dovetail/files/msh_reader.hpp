@@ -30,6 +30,7 @@ namespace detail {
 struct msh_entity_tags {
   local_id physical = 0;  ///< its first physical group, or 0
   local_id partition = 0; ///< the first partition of a partitioned entity, or 0
+  bool is_inside = false; ///< whether it is in an entity of a higher dimension, as those between partitions
 };
 
 /// Collects the sections of one file. Node numbers are translated at the end, since sections may come in any
@@ -145,7 +146,8 @@ private:
         const auto tag = in_.integer();
         auto& entity = entities_[{dimension, tag}];
         if (partitioned) {
-          in_.integer(), in_.integer(); // the parent
+          entity.is_inside = in_.integer() > dimension; // the dimension of the parent
+          in_.integer();                                // its tag
           const auto partitions = read_integers();
           entity.partition = partitions.empty() ? 0 : partitions.front();
         }
@@ -199,6 +201,7 @@ private:
       const auto found = entities_.find({dimension, tag});
       const auto entity = found == entities_.end() ? msh_entity_tags{} : found->second;
       const bool of_others = found == entities_.end() && ghosts_.contains(tag);
+      const bool between_parts = dimension == 2 && entity.is_inside && entity.physical == 0;
       if (count > 0 && entity.partition > 0)
         parts_with_elements_[dimension].insert(entity.partition - 1);
       for (std::size_t i = 0; i < count; ++i) {
@@ -206,7 +209,7 @@ private:
         node_numbers vertices{};
         for (std::size_t k = 0; k < nodes; ++k)
           vertices[k] = in_.count();
-        if (!of_others)
+        if (!of_others && !between_parts)
           add_element(type, vertices, entity.physical != 0 ? entity.physical : tag, entity.partition);
       }
     }
@@ -420,7 +423,8 @@ private:
 /// Reads MSH 2.2 and 4.1 files: tetrahedra, triangles, and node data of one component. A tag is the first
 /// physical group of an element's entity, or the entity's number where it has none, less one, as MSH counts
 /// from 1; likewise `subdomains` is the partition and `node_ids` the node number, less one. Of a file that
-/// has one part of a mesh it reads that part; elements that are ghosts in it are left out.
+/// has one part of a mesh it reads that part; elements that are ghosts in it are left out, and triangles that
+/// are only there since elements on both sides are of different partitions.
 struct msh_reader {
   element_order elements = element_order::first; ///< which elements to take
 

@@ -39,7 +39,7 @@ inline std::string unread_files(const std::filesystem::path& folder) {
   std::string text;
   for (const std::string& format : formats)
     text += (text.empty() ? "; it has files of " : ", ") + format;
-  return text.empty() ? text : text + ", which dovetail writes and checks but does not read";
+  return text.empty() ? text : text + ", which have readers of their own";
 }
 
 } // namespace detail
@@ -87,9 +87,8 @@ DOVETAIL_INLINE loaded_mesh read_mesh(const std::filesystem::path& path, vtk_exp
     return read.is_one_part() ? detail::read_all_parts(file, std::move(read), elements) : read;
   }
   if (const std::string format = detail::unread_format(start); !format.empty())
-    throw input_error(
-        file.string() + ": this is a file of " + format +
-        ", which dovetail writes and checks but does not read; it reads VTU, PVTU, VTP and MSH");
+    throw input_error(file.string() + ": this is a file of " + format +
+                      ", which has a reader of its own; here VTU, PVTU, VTP and MSH are read");
   if (start.find("\"UnstructuredGrid\"") != std::string::npos)
     detail::refuse_one_piece(file);
   if (start.find("<?xml") != std::string::npos || start.find("<VTKFile") != std::string::npos)
