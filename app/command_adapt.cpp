@@ -191,7 +191,8 @@ private:
       } catch (const mesh_error& problem) {
         if (model.was_asked_for)
           throw mesh_error(std::string(problem.what()) + " (--model none, or a mesh made with --keep-all)");
-        model.warnings.push_back(model.file_or_name + " is not used: " + problem.what());
+        model.warnings.push_back(model.file_or_name + " is not used: " + problem.what() +
+                                 " (a mesh made with --keep-all has all details of its model)");
         model.take_boundary();
       }
     }

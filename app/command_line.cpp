@@ -483,7 +483,8 @@ struct parser {
     add_examples(command, {"dovetail adapt mesh.vtu --sizes h -o next.vtu",
                            "dovetail adapt mesh.vtu --sizes h --model part.step -o next.vtu",
                            "dovetail adapt mesh.msh -s 2 --feature-angle 30 -o next.msh -j 2"});
-    command.add_option("MESH", adapt.input, "Mesh file of any format that is written, or a folder with one")->required();
+    command.add_option("MESH", adapt.input, "Mesh file of any format that is written, or a folder with one")
+        ->required();
     command.add_option("-o,--out", adapt.out, "Mesh file to write (VTU or MSH)")->required();
     auto* sizes =
         command.add_option("--sizes", adapt.sizes,

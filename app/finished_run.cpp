@@ -96,7 +96,10 @@ std::vector<written_file> files_of_run_in(const std::filesystem::path& folder) {
 }
 
 std::optional<recorded_model> model_of_run_beside(const std::filesystem::path& mesh) {
-  const std::filesystem::path folder = std::filesystem::absolute(mesh).parent_path();
+  std::error_code failure;
+  const auto whole_path = std::filesystem::absolute(mesh);
+  const std::filesystem::path folder =
+      std::filesystem::is_directory(mesh, failure) ? whole_path : whole_path.parent_path();
   std::ifstream record(folder / record_name, std::ios::binary);
   recorded_model model;
   std::string checksum, line;

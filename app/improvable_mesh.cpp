@@ -147,8 +147,6 @@ io::loaded_mesh improvable_mesh<D>::put_back() && {
     whole.mesh.points = std::move(mesh.points);
     whole.triangles = std::move(mesh.elements);
     whole.triangle_tags = std::move(mesh.tags);
-    if (whole.triangle_names.empty())
-      whole.triangle_names = std::exchange(whole.material_names, {});
   }
   return whole;
 }

@@ -72,9 +72,7 @@ surface_file read_surface_file(const std::filesystem::path& file) {
   if (!is_soup && loaded.mesh.points.size() < points_before)
     read.warnings.push_back(file.string() + ": " + std::to_string(points_before - loaded.mesh.points.size()) +
                             " points are at the place of another one and became one with it");
-  // The regions of a surface are its groups.
-  read.names =
-      loaded.triangle_names.empty() ? std::move(loaded.material_names) : std::move(loaded.triangle_names);
+  read.names = std::move(loaded.triangle_names);
   read.surface = take_triangles(std::move(loaded));
   complete_tags(read.surface.tags, read.surface.elements.size());
   if (const std::size_t dropped = drop_collapsed(read.surface); dropped > 0)

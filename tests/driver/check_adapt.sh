@@ -175,6 +175,8 @@ again() { # what is said, options...
   grep -q "^Volume before 1, after 1$" "$sandbox/stdout" || fault "another volume"
 }
 again "on the model $inputs/cube.off, which the run that made"
+expect_success adapt "$inputs/out" --size 0.25 -o next.vtu # a folder has its own record
+grep -q "^Meshed again on the model $inputs/cube.off, which the run" "$sandbox/stdout" || fault "no model of the folder's run"
 again "on the model $inputs/cube.off$" --model "$inputs/cube.off"
 again "on the boundary of the mesh$" --model none
 sed 's/^1 1 1$/1 1 2/' "$inputs/cube.off" >"$inputs/other.off"

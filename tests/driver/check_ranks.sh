@@ -123,6 +123,10 @@ for file in "${others[@]}"; do
   expect_success adapt "$set/$file" -s 0.2 -o next.vtu
   grep -q "sides with ids" "$sandbox/stderr" && fault "it knows sides that are none"
 done
+if [[ -e $set/ranks.h5 ]]; then
+  expect_success improve "$set/mesh.xdmf" -o better.vtu --preset none
+  grep -q "not kept of .*the names of materials and faces" "$sandbox/stderr" || fault "names are lost without a word"
+fi
 expect_success adapt "$set/ranks_2.msh" -s 0.2 -o next.vtu
 grep -q "sides with ids" "$sandbox/stderr" && fault "sides between ranks are taken for some of the model"
 expect_success improve "$set/ranks_2.msh" -o better.vtu --preset fast

@@ -4,6 +4,7 @@
 #include "files/second_order_verdict.hpp"
 #include "files/stacked_cubes.hpp"
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/files/streamed_validity.hpp"
 #include "dovetail/solver/mfem_format.hpp"
 #include "dovetail/solver/mfem_reader.hpp"
@@ -36,6 +37,14 @@ std::string faults_of(const ForEach& for_each) {
   return found.faults();
 }
 
+/// Of one rank no elements are told apart.
+void expect_ranks(const io::loaded_mesh& read, int ranks) {
+  auto subdomains = read.subdomains;
+  CHECK(subdomains.size() == (ranks == 1 ? 0 : read.mesh.elements.size()));
+  sort_unique(subdomains);
+  CHECK(subdomains.size() == (ranks == 1 ? 0 : static_cast<std::size_t>(ranks)));
+}
+
 void expect_cubes(const io::loaded_mesh& read) {
   const auto whole = cubes.whole();
   CHECK(read.mesh.points.size() == whole.points.size());
@@ -52,6 +61,7 @@ TEST_CASE("MFEM: what is read is what was written, of one rank and of several") 
     io::rank_writer<io::mfem_format>{.ranks = ranks}(cubes.distributed(), folder);
     const auto read = io::read_mfem(folder / "mesh.000000");
     expect_cubes(read);
+    expect_ranks(read, ranks);
     CHECK(read.files.size() == static_cast<std::size_t>(ranks));
     CHECK(read.triangles.size() == 432 + 2 * 72); // and interfaces between solids
     CHECK(read.material_names.size() == 3);
@@ -281,6 +291,7 @@ TEST_CASE("OpenFOAM: what is read is what was written, of one case and of proces
       CAPTURE(path.string());
       const auto read = io::read_openfoam(path);
       expect_cubes(read);
+      expect_ranks(read, ranks);
       CHECK(read.files.size() == static_cast<std::size_t>(ranks));
       CHECK(read.triangles.size() == 432);
       CHECK(read.material_names.size() == 3);
@@ -289,6 +300,12 @@ TEST_CASE("OpenFOAM: what is read is what was written, of one case and of proces
       CHECK(std::count(read.triangle_tags.begin(), read.triangle_tags.end(), 1) == 72);
     }
     CHECK(faults_of([&](const auto& f) { io::for_each_openfoam_piece(folder, f); }) == "");
+    if (ranks == 1)
+      continue;
+    std::filesystem::remove_all(folder / "processor1");
+    CHECK(testing::refusal_of<input_error>([&] {
+            io::read_openfoam(folder);
+          }).find("processor1: there is no mesh of this processor") != std::string::npos);
   }
   const testing::scratch_folder nothing("foam_nothing");
   CHECK(io::folders_of_openfoam(nothing).empty());

@@ -190,6 +190,9 @@ TEST_CASE("surfaces are written as VTU and MSH too") {
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.2, 1}}, {{0, 2, 1}, {0, 1, 3}}, {4, 2}};
   io::write_vtu(surface, folder / "s.vtu");
   CHECK(io::read_mesh(folder / "s.vtu").triangles == surface.elements);
+  io::write_vtu(surface, folder / "named.vtu", {}, {{2, "wing"}, {4, ""}});
+  CHECK(io::read_mesh(folder / "named.vtu").material_names.empty());
+  CHECK(io::read_mesh(folder / "named.vtu").triangle_names == io::tag_names{{2, "wing"}});
   io::write_msh(surface, folder / "s.msh");
   CHECK(io::read_mesh(folder / "s.msh").triangle_tags == std::vector<local_id>{2, 4});
   io::write_off(surface, folder / "s.off");
@@ -214,6 +217,53 @@ TEST_CASE("MSH 2.2: sparse node numbers, names, tags, partitions and node data")
   CHECK(*read.scalars("size") == std::vector<double>{1.5, 2, 3, 4, 5});
   CHECK(read.triangle_names == io::tag_names{{6, "wall"}});
   CHECK(read.passed_over == std::vector<std::string>{"points and lines as elements"});
+}
+
+TEST_CASE("MSH: triangles between partitions are left out, those on surfaces of the model are not") {
+  const testing::scratch_folder folder("between_partitions");
+  // Two tetrahedra of one volume. As Gmsh writes it, what is between partitions has the group of the volume.
+  testing::write_content(folder / "a.msh", R"($MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PartitionedEntities
+2
+0
+0 0 2 2
+5 3 1 2 1 2 0 0 0 1 1 1 1 9 0
+6 2 4 1 1 0 0 0 1 1 1 1 7 0
+7 3 1 1 1 0 0 0 1 1 1 1 9 0
+8 3 1 1 2 0 0 0 1 1 1 1 9 0
+$EndPartitionedEntities
+$Nodes
+1 5 1 5
+3 7 0 5
+1
+2
+3
+4
+5
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+1 1 1
+$EndNodes
+$Elements
+4 4 1 4
+2 5 2 1
+1 2 3 4
+2 6 2 1
+2 1 3 2
+3 7 4 1
+3 1 2 3 4
+3 8 4 1
+4 2 3 4 5
+$EndElements
+)");
+  const auto read = io::read_mesh(folder / "a.msh");
+  CHECK(read.subdomains == std::vector<local_id>{0, 1});
+  CHECK(read.triangles == std::vector<simplex<2>>{{0, 2, 1}});
+  CHECK(read.triangle_tags == std::vector<local_id>{6});
 }
 
 TEST_CASE("subdomains of triangles: partitions of MSH files, of VTK files an array of elements") {

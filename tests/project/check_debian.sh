@@ -14,7 +14,7 @@ command -v dh pkg-config dpkg-buildpackage >/dev/null || { echo "skipped: debhel
 rm -rf "$work"
 mkdir -p "$work/dovetail" "$work/installed" "$work/driver"
 cd "$source_directory"
-cp -r app cmake debian include CMakeLists.txt LICENSE "$work/dovetail"
+cp -r app cmake debian docs include CHANGELOG.md CMakeLists.txt LICENSE README.md "$work/dovetail"
 
 cd "$work/dovetail"
 dpkg-checkbuilddeps "${needs[@]}" || { echo "skipped: a package that the build needs is missing"; exit 77; }

@@ -20,6 +20,9 @@
 
 namespace dovetail::io::detail {
 
+/// What no reader of HDF5 takes.
+inline constexpr const char* names_in_hdf5 = "the names of materials and faces";
+
 /// Datasets of numbers, of one or two dimensions. Throws `input_error` naming the file and the dataset.
 class hdf5_input {
 public:

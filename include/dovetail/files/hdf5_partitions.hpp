@@ -89,8 +89,10 @@ public:
       } else {
         add_element<2>(of_element, mesh.triangles, mesh.triangle_middles);
         mesh.triangle_tags.push_back(region.empty() ? 0 : region[c]);
-        if (!subdomain.empty() && !is_skeleton)
+        if (!subdomain.empty() && !is_skeleton) {
           mesh.triangle_subdomains.push_back(subdomain[c]);
+          mesh.pass_over("the subdomains of triangles");
+        }
       }
     }
     if (has_ghosts_)

@@ -81,6 +81,7 @@ public:
                                                 std::to_string(element_));
         element_ += static_cast<global_id>(cells);
         loaded_mesh piece = input.read(p);
+        piece.pass_over(names_in_hdf5);
         check_numbers(file, piece, subdomains[p], shared[p], first_point[p]);
         if (skeleton)
           skeleton->check(piece, subdomains[p], static_cast<std::size_t>(shared[p]), path);

@@ -201,7 +201,8 @@ private:
       const auto found = entities_.find({dimension, tag});
       const auto entity = found == entities_.end() ? msh_entity_tags{} : found->second;
       const bool of_others = found == entities_.end() && ghosts_.contains(tag);
-      const bool between_parts = dimension == 2 && entity.is_inside && entity.physical == 0;
+      const bool between_parts =
+          dimension == 2 && entity.is_inside; // whatever its group: Gmsh has the parent's
       if (count > 0 && entity.partition > 0)
         parts_with_elements_[dimension].insert(entity.partition - 1);
       for (std::size_t i = 0; i < count; ++i) {

@@ -317,8 +317,11 @@ inline void append_vtu(const std::filesystem::path& file, const xml_element& roo
     for (const auto& [array, names] : {std::pair("region_names", &mesh.material_names),
                                        std::pair(names_of_triangles, &mesh.triangle_names)})
       if (names->empty())
-        for (auto& name : field_strings(grid, array))
-          names->emplace_back(static_cast<local_id>(names->size()), std::move(name));
+        for (local_id tag = 0; auto& name : field_strings(grid, array)) {
+          if (!name.empty())
+            names->emplace_back(tag, std::move(name));
+          ++tag;
+        }
   } catch (const input_error& problem) {
     throw input_error(file.string() + ": " + problem.what());
   }
@@ -370,6 +373,8 @@ DOVETAIL_INLINE loaded_mesh vtu_reader::operator()(const std::filesystem::path& 
     throw input_error(file.string() + ": this VTK file has a " + std::string(type) +
                       "; an UnstructuredGrid, PUnstructuredGrid or PolyData is needed");
   complete_point_data(mesh);
+  if (mesh.mesh.elements.empty() && mesh.triangle_names.empty()) // the regions are of triangles
+    mesh.triangle_names = std::exchange(mesh.material_names, {});
   try {
     if (fields)
       reader_of_fields.give_to(mesh);

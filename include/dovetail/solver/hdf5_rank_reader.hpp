@@ -65,6 +65,7 @@ public:
         file_.fail("geometry/vertices", "a coordinate of vertex " + std::to_string(v) + " is not finite");
     }
     auto tags = array("cells/region", elements_, file_.extent_of("names/regions").rows);
+    mesh_.pass_over(names_in_hdf5);
     auto subdomains = array("cells/subdomain", elements_, any_number);
     check_subdomains(elements, subdomains);
     if (corners_ == 4) {
@@ -76,6 +77,7 @@ public:
       read_elements<2>(mesh_.triangles, mesh_.triangle_middles);
       mesh_.triangle_tags = std::move(tags);
       mesh_.triangle_subdomains = std::move(subdomains);
+      mesh_.pass_over("the subdomains of triangles");
       vertices_of<2>("sides/vertices", sides_);
     }
     return std::move(mesh_);

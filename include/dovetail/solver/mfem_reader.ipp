@@ -290,6 +290,8 @@ DOVETAIL_INLINE void for_each_mfem_piece(const std::filesystem::path& file, cons
     detail::mfem_part part =
         detail::read_mfem_part(files[rank], static_cast<local_id>(rank), files.size(), elements);
     joint.add(part);
+    if (files.size() > 1)
+      part.piece.subdomains.assign(part.piece.mesh.elements.size(), static_cast<local_id>(rank));
     detail::order_points(part.piece, files[rank]);
     f(part.piece, files[rank]);
   }

@@ -351,6 +351,13 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> folders_of_openfoam(const std
         break;
       folders.push_back(next);
     }
+  std::size_t present = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(root, failure))
+    present += !folders.empty() && is_processor(entry.path().filename().string()) &&
+               std::filesystem::is_directory(mesh_of(entry.path()), failure);
+  if (present > folders.size())
+    throw input_error((root / (processor + std::to_string(folders.size()))).string() +
+                      ": there is no mesh of this processor, and there is one of a later one");
   if (folders.empty() && !of_processor && std::filesystem::is_directory(mesh_of(root), failure))
     folders.push_back(mesh_of(root));
   return folders;
@@ -368,6 +375,8 @@ DOVETAIL_INLINE void for_each_openfoam_piece(const std::filesystem::path& path, 
     part.piece.parts_here = 1;
     part.piece.first_part = static_cast<local_id>(p);
     joint.add(part);
+    if (folders.size() > 1)
+      part.piece.subdomains.assign(part.piece.mesh.elements.size(), static_cast<local_id>(p));
     detail::order_points(part.piece, folders[p]);
     f(part.piece, folders[p]);
   }
