@@ -1,5 +1,5 @@
 // near miss 1: it names the side that goes by its number where it should answer for the first
-// error 1: r\.prefer_removal\(a, b\).*return-type|(constraint|because) 'std::same_as<int, (bool|_Bool)>
+// error 1: r\.prefer_removal\(a, b\).*return-type|(constraint|because) 'std::same_as<(int|dovetail::local_id), (bool|_Bool)>
 // near miss 2: a refused side has no penalty
 // error 2: r\.penalty\(d\)
 // near miss 3: its choice changes it

@@ -1,7 +1,7 @@
 // near miss 1: elements have no weight
 // error 1: g\.weight\(element\)
 // near miss 2: a side has any number of elements
-// error 2: g\.elements\(side\).*return-type|std::array<int, 2>|'std::array<dovetail::local_id, 2>'
+// error 2: g\.elements\(side\).*return-type|std::array<int, 2>|std::array<(dovetail::)?local_id, 2>
 // near miss 3: it does not say which sides are fixed
 // error 3: g\.is_fixed\(side\)
 // near miss 4: its sides have no weights

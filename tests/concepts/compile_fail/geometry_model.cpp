@@ -1,7 +1,7 @@
 // near miss 1: projection takes no seed
 // error 1: g\.project_to_face\(id, p, uv\).*invalid|no matching member function|too many arguments
 // near miss 2: a frame is only a point
-// error 2: g\.face_frame\(id, uv\).*return-type|(constraint|because) 'std::same_as<dovetail::vec3
+// error 2: g\.face_frame\(id, uv\).*return-type|(constraint|because) 'std::same_as<(dovetail::)?vec3
 // near miss 3: it does not say whether threads may share it
 // error 3: g\.thread_safe\(\).*invalid|no member named 'thread_safe'
 // near miss 4: curves have no parameters on their faces

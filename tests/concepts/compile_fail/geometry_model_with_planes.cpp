@@ -1,7 +1,7 @@
 // near miss 1: it knows no planes
 // error 1: g\.plane_of_face\(id\).*invalid|no member named 'plane_of_face'
 // near miss 2: every face has a plane
-// error 2: g\.plane_of_face\(id\).*return-type|std::same_as<dovetail::surface_frame
+// error 2: g\.plane_of_face\(id\).*return-type|std::same_as<(dovetail::)?surface_frame
 // near miss 3: it is no geometry model
 // error 3: g\.bounds\(\).*invalid|no member named 'bounds'
 #include "dovetail/geometry/concepts.hpp"

@@ -3,7 +3,7 @@
 // near miss 2: it is not told what is frozen
 // error 2: i\(mesh, frozen, h\).*invalid|no matching function for call to object of type 'const my_improver
 // near miss 3: it returns a mesh instead of changing the one given
-// error 3: i\(mesh, frozen, h\).*return-type|(constraint|because) 'std::same_as<dovetail::simplicial_mesh<3>
+// error 3: i\(mesh, frozen, h\).*return-type|(constraint|because) 'std::same_as<(dovetail::simplicial_mesh<3>|mesh)
 // near miss 4: it has no traits
 // error 4: I::traits|no member named 'traits'
 #include "dovetail/improver/concepts.hpp"

@@ -1,5 +1,5 @@
 // near miss 1: it gives points without derivatives
-// error 1: s\.frame\(uv\).*return-type|(constraint|because) 'std::same_as<dovetail::vec3
+// error 1: s\.frame\(uv\).*return-type|(constraint|because) 'std::same_as<(dovetail::)?vec3
 // near miss 2: points cannot be projected on it
 // error 2: s\.project\(p, uv\).*invalid|no member named 'project'
 // near miss 3: it takes no seed

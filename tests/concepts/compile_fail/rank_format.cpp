@@ -1,7 +1,7 @@
 // near miss 1: it has no name
 // error 1: f\.name\(\).*invalid|no member named 'name'
 // near miss 2: a rank has one file
-// error 2: f\.files_of_rank\(q\).*return-type|(constraint|because) 'std::same_as<std::.*basic_string|type constraint.*string
+// error 2: f\.files_of_rank\(q\).*return-type|(constraint|because) 'std::same_as<std::.*string|type constraint.*string
 // near miss 3: it writes the mesh of a rank without what all have
 // error 3: f\.write\(source, mesh, paths\).*invalid|no matching member function for call to 'write'|too many arguments to function call
 #include "dovetail/solver/concepts.hpp"

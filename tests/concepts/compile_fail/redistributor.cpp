@@ -1,5 +1,5 @@
 // near miss 1: it gives the ranks alone
-// error 1: r\(mesh, ranks\).*return-type|(constraint|because) 'std::same_as<std::vector<int|type constraint.*vector<
+// error 1: r\(mesh, ranks\).*return-type|(constraint|because) 'std::same_as<std::vector<(int|dovetail::local_id)|type constraint.*vector<
 // near miss 2: it does not take the number of ranks
 // error 2: r\(mesh, ranks\).*invalid|no matching function for call to object of type 'const my_redistributor
 // near miss 3: its call is not const

@@ -1,5 +1,5 @@
 // near miss 1: it returns triangles without a report
-// error 1: m\(s, b, h\).*return-type|(constraint|because) 'std::same_as<std::vector<std::array<int, 3>
+// error 1: m\(s, b, h\).*return-type|(constraint|because) 'std::same_as<std::vector<(std::array<int, 3>|dovetail::simplex<2>)
 // near miss 2: it takes no sizing field
 // error 2: m\(s, b, h\).*invalid|no matching function for call to object of type 'const my_mesher
 // near miss 3: its call changes it

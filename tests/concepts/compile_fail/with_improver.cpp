@@ -1,6 +1,6 @@
 // near miss 1: it returns no report
 // first error 1: with_improver takes an improver
-// error 1: i\(mesh, frozen, h\).*return-type|std::same_as<void, dovetail::report>
+// error 1: i\(mesh, frozen, h\).*return-type|std::same_as<void, (dovetail::)?report>
 // near miss 2: it is not told what is frozen
 // first error 2: with_improver takes an improver
 // error 2: i\(mesh, frozen, h\).*invalid
