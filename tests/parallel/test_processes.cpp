@@ -19,9 +19,11 @@
 #include <thread>
 
 #include <poll.h>
+#include <pthread.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 using namespace dovetail;
 using parallel::processes;
@@ -416,6 +418,30 @@ TEST_CASE("A task is taken once, and again when it is given back") {
   CHECK(board.take(3, 0) == 1);
   CHECK_FALSE(board.has_free());
   CHECK_FALSE(board.take(1, 0).has_value());
+}
+
+namespace {
+
+std::promise<void>* stand_by = nullptr; // of a thread that ends before this process forks
+std::thread* standing_by = nullptr;
+
+} // namespace
+
+TEST_CASE("A library's thread that ends before a fork keeps nobody from forking") {
+  std::promise<void> ended;
+  std::thread thread([&] { ended.get_future().wait(); });
+  stand_by = &ended;
+  standing_by = &thread;
+  const auto end_thread = [] {
+    if (stand_by == nullptr)
+      return;
+    std::exchange(stand_by, nullptr)->set_value();
+    standing_by->join();
+  };
+  REQUIRE(::pthread_atfork(end_thread, nullptr, nullptr) == 0);
+  CHECK(detail::is_only_thread());
+  CHECK_FALSE(thread.joinable());
+  end_thread();
 }
 
 TEST_CASE("A thread that was joined keeps nobody from forking, though the system may list it still") {

@@ -9,14 +9,18 @@
 #include "dovetail/parallel/run_task.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <poll.h>
 #include <string>
+#include <sys/types.h>
+#include <sys/wait.h>
 #include <system_error>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -32,8 +36,20 @@ inline std::size_t thread_count() {
   return std::max<std::size_t>(count, 1);
 }
 
+/// Forks a child that ends at once: libraries that start threads when they are loaded, OpenBLAS among them,
+/// end these before a process forks (`pthread_atfork`), and start them again when they need them.
+inline void end_threads_that_stand_by() {
+  const pid_t child = ::fork();
+  if (child == 0)
+    ::_exit(0);
+  while (child > 0 && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
 /// Whether this is the only thread. The system lists a thread for a moment after it was joined.
 inline bool is_only_thread() {
+  if (thread_count() > 1)
+    end_threads_that_stand_by();
   constexpr int moments = 50;
   for (int moment = 0; moment < moments; ++moment) {
     if (thread_count() == 1)

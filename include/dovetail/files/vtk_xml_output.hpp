@@ -20,11 +20,11 @@ constexpr const char* vtk_type = nullptr;
 template <>
 inline constexpr const char* vtk_type<double> = "Float64"; ///< what VTK's XML calls the type
 template <>
-inline constexpr const char* vtk_type<std::int32_t> = "Int32";
+inline constexpr const char* vtk_type<std::int32_t> = "Int32"; ///< what VTK's XML calls the type
 template <>
-inline constexpr const char* vtk_type<std::int64_t> = "Int64";
+inline constexpr const char* vtk_type<std::int64_t> = "Int64"; ///< what VTK's XML calls the type
 template <>
-inline constexpr const char* vtk_type<std::uint8_t> = "UInt8";
+inline constexpr const char* vtk_type<std::uint8_t> = "UInt8"; ///< what VTK's XML calls the type
 
 /// Writes the XML elements of arrays whose values follow in the appended section, and hands out their places
 /// there. The values must then be written in the same order.
