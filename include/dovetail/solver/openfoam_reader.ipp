@@ -351,11 +351,14 @@ DOVETAIL_INLINE std::vector<std::filesystem::path> folders_of_openfoam(const std
         break;
       folders.push_back(next);
     }
-  std::size_t present = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(root, failure))
-    present += !folders.empty() && is_processor(entry.path().filename().string()) &&
+  const auto processors = [&] {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(root, failure))
+      count += is_processor(entry.path().filename().string()) &&
                std::filesystem::is_directory(mesh_of(entry.path()), failure);
-  if (present > folders.size())
+    return count;
+  };
+  if (!folders.empty() && processors() > folders.size())
     throw input_error((root / (processor + std::to_string(folders.size()))).string() +
                       ": there is no mesh of this processor, and there is one of a later one");
   if (folders.empty() && !of_processor && std::filesystem::is_directory(mesh_of(root), failure))
