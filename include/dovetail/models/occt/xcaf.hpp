@@ -144,21 +144,23 @@ inline attribute_map document_attributes(const Handle(TDocStd_Document) & docume
                    [](const auto& a, const auto& b) { return a.first.ShapeType() < b.first.ShapeType(); });
 
   attribute_map names;
+  const auto assign = [&](const TopoDS_Shape& shape, const attributes& item, TopAbs_ShapeEnum kind,
+                          bool with_name) {
+    const TopTools_IndexedMapOfShape parts = sub_shapes(shape, kind);
+    for (int i = 1; i <= parts.Extent(); ++i) {
+      attributes& mine = names[parts(i)];
+      if (with_name && !item.name.empty())
+        mine.name = item.name;
+      if (!item.layer.empty())
+        mine.layer = item.layer;
+      if (!item.color.empty())
+        mine.color = item.color;
+    }
+  };
   for (const auto& [shape, item] : found) {
-    const auto assign = [&, &shape = shape, &item = item](TopAbs_ShapeEnum kind, bool with_name) {
-      const TopTools_IndexedMapOfShape parts = sub_shapes(shape, kind);
-      for (int i = 1; i <= parts.Extent(); ++i) {
-        attributes& mine = names[parts(i)];
-        if (with_name && !item.name.empty())
-          mine.name = item.name;
-        if (!item.layer.empty())
-          mine.layer = item.layer;
-        if (!item.color.empty())
-          mine.color = item.color;
-      }
-    };
-    assign(TopAbs_SOLID, true);
-    assign(TopAbs_FACE, shape.ShapeType() == TopAbs_FACE); // a part's name is not the name of its faces
+    assign(shape, item, TopAbs_SOLID, true);
+    // A part's name is not the name of its faces.
+    assign(shape, item, TopAbs_FACE, shape.ShapeType() == TopAbs_FACE);
   }
   return names;
 }
