@@ -205,6 +205,16 @@ background_field load_background(const std::filesystem::path& file, const std::s
   return background_field(std::move(loaded.mesh), *sizes);
 }
 
+bool is_builtin(const std::string& name) {
+  const auto names = builtin_model_names();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_there(const std::string& file) {
+  std::error_code missing;
+  return std::filesystem::exists(file, missing);
+}
+
 } // namespace
 
 given_sizes::given_sizes(std::string file, const std::optional<double>& size)
@@ -285,20 +295,6 @@ std::optional<automatic_points> given_sizes::points(const any_geometry& model, b
   }
   return automatic_points(model, options, divided_loop{run});
 }
-
-namespace {
-
-bool is_builtin(const std::string& name) {
-  const auto names = builtin_model_names();
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool is_there(const std::string& file) {
-  std::error_code missing;
-  return std::filesystem::exists(file, missing);
-}
-
-} // namespace
 
 any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {
   if (!is_there(file_or_name)) {

@@ -17,13 +17,13 @@
 #include <future>
 #include <new>
 #include <thread>
+#include <utility>
 
 #include <poll.h>
 #include <pthread.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <utility>
 
 using namespace dovetail;
 using parallel::processes;
