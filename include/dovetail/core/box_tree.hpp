@@ -176,7 +176,15 @@ private:
     std::size_t count = 0; ///< items of a leaf; 0 for an inner node
   };
 
-  void build(const std::vector<box3>& boxes, std::size_t leaf_size, std::size_t begin, std::size_t end);
+  /// An item, and where its centre is along one axis: what halving compares lies side by side.
+  struct placed_item {
+    double place;
+    local_id item;
+  };
+
+  /// `placed` is room for as many as there are items.
+  void build(const std::vector<box3>& boxes, std::vector<placed_item>& placed, std::size_t leaf_size,
+             std::size_t begin, std::size_t end);
 
   std::vector<node> nodes_;
   std::vector<local_id> items_;

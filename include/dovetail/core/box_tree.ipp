@@ -17,12 +17,14 @@ namespace dovetail {
 DOVETAIL_INLINE box_tree::box_tree(const std::vector<box3>& boxes, std::size_t leaf_size)
     : items_(boxes.size()) {
   std::iota(items_.begin(), items_.end(), local_id{0});
-  if (!boxes.empty())
-    build(boxes, leaf_size, 0, items_.size());
+  if (boxes.empty())
+    return;
+  std::vector<placed_item> placed(boxes.size());
+  build(boxes, placed, leaf_size, 0, items_.size());
 }
 
-DOVETAIL_INLINE void box_tree::build(const std::vector<box3>& boxes, std::size_t leaf_size, std::size_t begin,
-                                     std::size_t end) {
+DOVETAIL_INLINE void box_tree::build(const std::vector<box3>& boxes, std::vector<placed_item>& placed,
+                                     std::size_t leaf_size, std::size_t begin, std::size_t end) {
   const std::size_t at = nodes_.size();
   nodes_.push_back({});
   box3 box;
@@ -40,17 +42,18 @@ DOVETAIL_INLINE void box_tree::build(const std::vector<box3>& boxes, std::size_t
   }
   const vec3 extent = centers.upper - centers.lower;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
-  const auto key = [&](local_id item) { return boxes[item].center()[axis]; };
+  for (std::size_t i = begin; i < end; ++i)
+    placed[i] = {boxes[items_[i]].center()[axis], items_[i]};
   const std::size_t middle = begin + (end - begin) / 2;
-  std::nth_element(items_.data() + begin, items_.data() + middle, items_.data() + end,
-                   [&](local_id a, local_id b) {
-                     const double ka = key(a);
-                     const double kb = key(b);
-                     return ka != kb ? ka < kb : a < b;
+  std::nth_element(placed.data() + begin, placed.data() + middle, placed.data() + end,
+                   [](const placed_item& a, const placed_item& b) {
+                     return a.place != b.place ? a.place < b.place : a.item < b.item;
                    });
-  build(boxes, leaf_size, begin, middle);
+  for (std::size_t i = begin; i < end; ++i)
+    items_[i] = placed[i].item;
+  build(boxes, placed, leaf_size, begin, middle);
   nodes_[at].first = nodes_.size();
-  build(boxes, leaf_size, middle, end);
+  build(boxes, placed, leaf_size, middle, end);
 }
 
 } // namespace dovetail

@@ -103,23 +103,23 @@ inline constexpr double half_ulp = std::numeric_limits<double>::epsilon() / 2;
 
 /// The determinants, of doubles, of expansions or of integers of some words.
 template <class Number>
-auto plane_determinant(const std::array<Number, 4>& n) {
+[[gnu::always_inline]] inline auto plane_determinant(const std::array<Number, 4>& n) {
   const auto& [bx, by, cx, cy] = n;
   return bx * cy - by * cx;
 }
 template <class Number>
-auto space_determinant(const std::array<Number, 9>& n) {
+[[gnu::always_inline]] inline auto space_determinant(const std::array<Number, 9>& n) {
   const auto& [bx, by, bz, cx, cy, cz, dx, dy, dz] = n;
   return (by * cz - bz * cy) * dx + (bz * cx - bx * cz) * dy + (bx * cy - by * cx) * dz;
 }
 template <class Number>
-auto circle_determinant(const std::array<Number, 6>& n) {
+[[gnu::always_inline]] inline auto circle_determinant(const std::array<Number, 6>& n) {
   const auto& [ax, ay, bx, by, cx, cy] = n;
   return (ax * ax + ay * ay) * (bx * cy - by * cx) + (bx * bx + by * by) * (cx * ay - cy * ax) +
          (cx * cx + cy * cy) * (ax * by - ay * bx);
 }
 template <class Number>
-auto sphere_determinant(const std::array<Number, 12>& n) {
+[[gnu::always_inline]] inline auto sphere_determinant(const std::array<Number, 12>& n) {
   const auto& [ax, ay, az, bx, by, bz, cx, cy, cz, dx, dy, dz] = n;
   const auto ab = ax * by - bx * ay, bc = bx * cy - cx * by, cd = cx * dy - dx * cy, da = dx * ay - ax * dy,
              ac = ax * cy - cx * ay, bd = bx * dy - dx * by;

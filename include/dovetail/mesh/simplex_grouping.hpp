@@ -18,7 +18,7 @@ namespace dovetail {
 
 /// The same vertices in growing order: the key under which equal simplices meet.
 template <std::size_t N>
-constexpr std::array<local_id, N> sorted_vertices(std::array<local_id, N> vertices) {
+[[gnu::always_inline]] constexpr std::array<local_id, N> sorted_vertices(std::array<local_id, N> vertices) {
   // Sorting networks: this runs once per half-side of a mesh.
   const auto order = [&](std::size_t i, std::size_t j) {
     const local_id low = std::min(vertices[i], vertices[j]);

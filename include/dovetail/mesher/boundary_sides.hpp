@@ -3,11 +3,13 @@
 /// side of it. Shared by the checks and by the flood fill.
 #pragma once
 
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -32,8 +34,24 @@ public:
   /// Throws `mesher_error` when a triangle is degenerate or listed twice in the same direction.
   explicit boundary_sides(std::span<const simplex<2>> triangles);
 
+  /// Whether a vertex is one that triangles may have: it is no higher than theirs.
+  bool may_have(local_id v) const { return v >= 0 && static_cast<std::size_t>(v) + 1 < bucket_begins_.size(); }
   /// The entry with the vertices of `side`, if there is one.
-  match find(const simplex<2>& side) const;
+  match find(const simplex<2>& side) const {
+    const auto [lowest, middle, highest] = sorted_vertices(side);
+    if (static_cast<std::size_t>(lowest) + 1 >= bucket_begins_.size())
+      return {};
+    std::size_t at = bucket_begins_[lowest], end = bucket_begins_[lowest + 1];
+    while (end - at > few) {
+      const std::size_t half = at + (end - at) / 2;
+      const entry& one = entries_[half];
+      (std::pair(middle, highest) < std::pair(one.middle, one.highest) ? end : at) = half;
+    }
+    for (; at < end; ++at)
+      if (entries_[at].middle == middle && entries_[at].highest == highest)
+        return {static_cast<local_id>(at), parity(side)};
+    return {};
+  }
   /// All triangles, each once whatever its directions.
   const std::vector<entry>& entries() const { return entries_; }
   /// The input triangle that is oriented like the side asked for; no_id when only its reverse was listed.
@@ -45,6 +63,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t few = 8; // entries, one of which is found the faster by looking at each
+
   /// One more than the largest vertex.
   static std::size_t count_points(std::span<const simplex<2>> triangles);
 

@@ -39,21 +39,6 @@ DOVETAIL_INLINE boundary_sides::boundary_sides(std::span<const simplex<2>> trian
   bucket_begins_.push_back(entries_.size());
 }
 
-DOVETAIL_INLINE boundary_sides::match boundary_sides::find(const simplex<2>& side) const {
-  const auto key = sorted_vertices(side);
-  if (static_cast<std::size_t>(key[2]) + 1 >= bucket_begins_.size())
-    return {};
-  const auto begin = entries_.begin() + static_cast<std::ptrdiff_t>(bucket_begins_[key[0]]),
-             end = entries_.begin() + static_cast<std::ptrdiff_t>(bucket_begins_[key[0] + 1]);
-  const auto at = std::lower_bound(begin, end, std::pair(key[1], key[2]),
-                                   [](const entry& one, const std::pair<local_id, local_id>& wanted) {
-                                     return std::pair(one.middle, one.highest) < wanted;
-                                   });
-  if (at == end || at->middle != key[1] || at->highest != key[2])
-    return {};
-  return {static_cast<local_id>(at - entries_.begin()), parity(side)};
-}
-
 DOVETAIL_INLINE std::size_t boundary_sides::count_points(std::span<const simplex<2>> triangles) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t) {

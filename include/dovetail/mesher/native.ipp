@@ -4,6 +4,7 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/checks.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/mesher/native/boundary_points.hpp"
@@ -38,10 +39,11 @@ DOVETAIL_INLINE mesher_result<3> native::operator()(const mesher_input<3>& input
 
   auto made = triangulate_points<3>(span_of(std::as_const(points)));
   detail::require_distinct_vertices(input.boundary, made.same_as);
-  const recovery_counts recovered = recover_boundary(made.triangulation, span_of(input.boundary.elements));
+  const auto triangles = span_of(input.boundary.elements);
+  const boundary_sides sides(triangles);
+  const recovery_counts recovered = recover_boundary(made.triangulation, triangles, sides);
   mesher_result<3> result;
-  result.mesh =
-      inside_elements(made.triangulation, span_of(input.boundary.elements), input.boundary.points.size());
+  result.mesh = inside_elements(made.triangulation, sides, input.boundary.points.size());
   result.mesh.tags.assign(result.mesh.elements.size(), input.material);
   check_mesher_result(input, result.mesh);
 

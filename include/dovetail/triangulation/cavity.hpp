@@ -13,6 +13,28 @@
 
 namespace dovetail::detail {
 
+/// A list that makes room for several items at once, not with each.
+template <class T>
+class buffer {
+public:
+  std::size_t size() const { return size_; }
+  void clear() { size_ = 0; }
+  /// For `more` items, to be added without a look at the room.
+  void make_room(std::size_t more) {
+    if (size_ + more > items_.size())
+      items_.resize(2 * (size_ + more));
+  }
+  void add(const T& item) { items_[size_++] = item; }
+  T& operator[](std::size_t k) { return items_[k]; }
+  const T& operator[](std::size_t k) const { return items_[k]; }
+  T* begin() { return items_.data(); }
+  T* end() { return items_.data() + size_; }
+
+private:
+  std::vector<T> items_ = std::vector<T>(64);
+  std::size_t size_ = 0;
+};
+
 /// Inserts points into a Delaunay triangulation. The buffers are kept from point to point.
 ///
 /// A point on a sphere counts as outside. With exact signs that is all that degenerate input needs: the
@@ -44,50 +66,41 @@ private:
   state& state_of(local_id e) { return states_[e]; }
 
   static bool in_conflict(const triangulation<D>& t, const box_predicates<D>& predicates, local_id e,
-                          point_of<D> p) {
-    if (!t.is_ghost(e))
-      return predicates.in_sphere(t.points_of(e), p) > 0;
-    // The sphere of a ghost is the open half-space beyond its hull side, and the open disc in its plane.
+                          const point_of<D>& p) {
+    if (t.is_ghost(e)) [[unlikely]]
+      return in_conflict_with_ghost(t, predicates, e, p);
+    return predicates.in_sphere(t.points_of(e), p) > 0;
+  }
+  /// The sphere of a ghost is the open half-space beyond its hull side, and the open disc in its plane.
+  [[gnu::noinline]] static bool in_conflict_with_ghost(const triangulation<D>& t,
+                                                       const box_predicates<D>& predicates, local_id e,
+                                                       const point_of<D>& p) {
     const std::size_t far = t.infinite_place(e);
-    corner_points<D> corners;
+    corner_places<D> corners;
     for (std::size_t i = 0; i < corners.size(); ++i)
-      corners[i] = i == far ? p : t.point(t[e].vertices[i]);
+      corners[i] = i == far ? &p : &t.point(t[e].vertices[i]);
     const double side = predicates.orientation(corners);
     if (side != 0)
       return side > 0;
-    const local_id beneath = triangulation<D>::element_of(t[e].across[far]);
-    return predicates.in_sphere(t.points_of(beneath), p) > 0;
+    return in_conflict(t, predicates, triangulation<D>::element_of(t[e].across[far]), p);
   }
 
   /// Finds the elements in conflict with `p`, breadth first, and the sides between them and the others.
-  void dig(const triangulation<D>& t, const box_predicates<D>& predicates, point_of<D> p, local_id start) {
+  void dig(const triangulation<D>& t, const box_predicates<D>& predicates, const point_of<D>& p,
+           local_id start) {
     states_.resize(t.cells.size(), state::unknown);
     hole_.clear();
     rim_.clear();
-    hole_.push_back(start);
+    hole_.add(start);
     state_of(start) = state::inside;
     for (std::size_t next = 0; next < hole_.size(); ++next) {
-      const auto& cell = t[hole_[next]];
-      for (std::size_t i = 0; i < side_corners + 1; ++i) {
-        const local_id outer = cell.across[i];
-        const local_id e = triangulation<D>::element_of(outer);
-        state& known = state_of(e);
-        if (known == state::inside)
-          continue;
-        if (known == state::unknown) {
-          if (in_conflict(t, predicates, e, p)) {
-            known = state::inside;
-            hole_.push_back(e);
-            continue;
-          }
-          known = state::outside;
-        }
-        rim_side side;
-        side.outer = outer;
-        for (std::size_t k = 0; k < side_corners; ++k)
-          side.vertices[k] = cell.vertices[numbering::sides<D>[i][k]];
-        rim_.push_back(side);
-      }
+      hole_.make_room(side_corners + 1);
+      rim_.make_room(side_corners + 1);
+      look_across<0>(t, predicates, p, hole_[next]);
+      look_across<1>(t, predicates, p, hole_[next]);
+      look_across<2>(t, predicates, p, hole_[next]);
+      if constexpr (D == 3)
+        look_across<3>(t, predicates, p, hole_[next]);
     }
     for (const local_id e : hole_)
       state_of(e) = state::unknown;
@@ -95,17 +108,43 @@ private:
       state_of(triangulation<D>::element_of(side.outer)) = state::unknown;
   }
 
+  /// Side `I` of an element of the hole is one of the rim, or the element beyond is in the hole, too.
+  template <std::size_t I>
+  void look_across(const triangulation<D>& t, const box_predicates<D>& predicates, const point_of<D>& p,
+                   local_id of) {
+    const auto& cell = t[of];
+    const local_id outer = cell.across[I];
+    const local_id e = triangulation<D>::element_of(outer);
+    state& known = state_of(e);
+    if (known == state::inside)
+      return;
+    if (known == state::unknown) {
+      if (in_conflict(t, predicates, e, p)) {
+        known = state::inside;
+        hole_.add(e);
+        return;
+      }
+      known = state::outside;
+    }
+    constexpr auto& local = numbering::sides<D>[I];
+    if constexpr (D == 2)
+      rim_.add({outer, {cell.vertices[local[0]], cell.vertices[local[1]]}, {}});
+    else
+      rim_.add({outer, {cell.vertices[local[0]], cell.vertices[local[1]], cell.vertices[local[2]]}, {}});
+  }
+
   /// Numbers the vertices of the rim from 0, so that its ridges are found by place in a small table.
   void number_rim(const triangulation<D>& t) {
     rank_of_.resize(t.points.size() + 1);
     rim_vertices_.clear();
+    rim_vertices_.make_room(side_corners * rim_.size());
     for (rim_side& side : rim_)
       for (std::size_t k = 0; k < side_corners; ++k) {
         const local_id v = side.vertices[k];
         std::uint32_t& rank = rank_of_[v + 1]; // `infinite` is -1
         if (rank >= rim_vertices_.size() || rim_vertices_[rank] != v) {
           rank = static_cast<std::uint32_t>(rim_vertices_.size());
-          rim_vertices_.push_back(v);
+          rim_vertices_.add(v);
         }
         side.ranks[k] = rank;
       }
@@ -114,11 +153,12 @@ private:
   /// Joins every side of the rim to `v`. New element: v, then the side's vertices.
   local_id fill(triangulation<D>& t, local_id v) {
     fresh_.clear();
+    fresh_.make_room(rim_.size());
     std::size_t reused = 0;
     local_id inner = no_id;
     for (const rim_side& side : rim_) {
       const local_id e = reused < hole_.size() ? hole_[reused++] : t.add();
-      fresh_.push_back(e);
+      fresh_.add(e);
       bool ghost = false;
       auto& cell = t[e];
       cell.vertices[0] = v;
@@ -196,8 +236,9 @@ private:
   static constexpr std::size_t most_tabled = 512;
 
   std::vector<state> states_; // per element; unknown between two points
-  std::vector<local_id> hole_, fresh_, rim_vertices_, table_;
-  std::vector<rim_side> rim_;
+  buffer<local_id> hole_, fresh_, rim_vertices_;
+  buffer<rim_side> rim_;
+  std::vector<local_id> table_;
   std::vector<rim_edge> edges_;
   std::vector<std::uint32_t>
       rank_of_; // per vertex; what is left of earlier points is told by `rim_vertices_`

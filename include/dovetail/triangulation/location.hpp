@@ -22,8 +22,8 @@ local_id locate(const triangulation<D>& t, const box_predicates<D>& predicates, 
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (triangulation<D>::side_of(e, static_cast<local_id>(i)) == entered)
         continue;
-      const auto corner = corners[i];
-      corners[i] = p;
+      const auto* const corner = corners[i];
+      corners[i] = &p;
       if (predicates.orientation(corners) < 0) {
         next = t[e].across[i];
         break;

@@ -6,6 +6,7 @@
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +21,9 @@ using point_of = std::conditional_t<D == 2, vec2, vec3>;
 /// The points of the vertices of a simplex.
 template <int D>
 using corner_points = std::array<point_of<D>, static_cast<std::size_t>(D) + 1>;
+/// Where these are kept.
+template <int D>
+using corner_places = std::array<const point_of<D>*, static_cast<std::size_t>(D) + 1>;
 
 namespace detail {
 
@@ -49,42 +53,57 @@ public:
     }
     // With differences no larger than the widths the permanents are at most so many products of them.
     constexpr double orientation_terms = D == 2 ? 2 : 6;
-    constexpr double sphere_terms = D == 2 ? 3 * 2 * 2 : 4 * 6 * 3;
     constexpr double orientation_factor = D == 2 ? 3 + 16 * half_ulp : 7 + 56 * half_ulp;
-    constexpr double sphere_factor = D == 2 ? 10 + 96 * half_ulp : 16 + 224 * half_ulp;
-    constexpr double rounding = 1 + 16 * half_ulp; // of the differences and of this product
     orientation_bound_ = rounding * orientation_factor * half_ulp * orientation_terms * product;
     sphere_bound_ = rounding * sphere_factor * half_ulp * sphere_terms * product * largest * largest;
   }
 
   /// Positive when the simplex of these points is positively oriented.
-  double orientation(const corner_points<D>& p) const {
+  [[gnu::always_inline]] double orientation(const corner_places<D>& p) const {
     if constexpr (D == 2) {
-      const vec2 b = p[1] - p[0], c = p[2] - p[0];
+      const vec2 b = *p[1] - *p[0], c = *p[2] - *p[0];
       const double value = plane_determinant<double>({b.x, b.y, c.x, c.y});
-      return std::abs(value) > orientation_bound_ ? value : orient2d(p[0], p[1], p[2]);
+      return std::abs(value) > orientation_bound_ ? value : orient2d(*p[0], *p[1], *p[2]);
     } else {
-      const vec3 b = p[1] - p[0], c = p[2] - p[0], d = p[3] - p[0];
+      const vec3 b = *p[1] - *p[0], c = *p[2] - *p[0], d = *p[3] - *p[0];
       const double value = space_determinant<double>({b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
-      return std::abs(value) > orientation_bound_ ? value : orient3d(p[0], p[1], p[2], p[3]);
+      return std::abs(value) > orientation_bound_ ? value : orient3d(*p[0], *p[1], *p[2], *p[3]);
     }
   }
 
   /// Positive when `q` is inside the sphere through the points of a positively oriented simplex.
-  double in_sphere(const corner_points<D>& p, point q) const {
+  [[gnu::always_inline]] double in_sphere(const corner_places<D>& p, const point& q) const {
     if constexpr (D == 2) {
-      const vec2 a = p[0] - q, b = p[1] - q, c = p[2] - q;
+      const vec2 a = *p[0] - q, b = *p[1] - q, c = *p[2] - q;
       const double value = circle_determinant<double>({a.x, a.y, b.x, b.y, c.x, c.y});
-      return std::abs(value) > sphere_bound_ ? value : in_circle(p[0], p[1], p[2], q);
+      return std::abs(value) > sphere_bound_ ? value : in_circle(*p[0], *p[1], *p[2], q);
     } else {
-      const vec3 a = p[0] - q, b = p[1] - q, c = p[2] - q, d = p[3] - q;
+      const vec3 a = *p[0] - q, b = *p[1] - q, c = *p[2] - q, d = *p[3] - q;
       const double value =
           sphere_determinant<double>({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
-      return std::abs(value) > sphere_bound_ ? value : dovetail::in_sphere(p[0], p[1], p[2], p[3], q);
+      return std::abs(value) > sphere_bound_ ? value : in_near_sphere(value, p, q);
     }
   }
 
 private:
+  /// Decides by the extent of these points alone, which are few among many in the box: a value that is far
+  /// from zero for them need not be so for all.
+  [[gnu::noinline]] static double in_near_sphere(double value, const corner_places<D>& p, const point& q) {
+    vec3 extent;
+    for (const point* corner : p) {
+      const vec3 v = *corner - q;
+      extent = {std::max(extent.x, std::abs(v.x)), std::max(extent.y, std::abs(v.y)),
+                std::max(extent.z, std::abs(v.z))};
+    }
+    constexpr double terms = sphere_terms / 3; // of which each has its own square of a distance
+    const double bound = rounding * sphere_factor * half_ulp * terms *
+                         (extent.x * extent.y * extent.z * norm_squared(extent));
+    return std::abs(value) > bound ? value : dovetail::in_sphere(*p[0], *p[1], *p[2], *p[3], q);
+  }
+
+  static constexpr double sphere_terms = D == 2 ? 3 * 2 * 2 : 4 * 6 * 3;
+  static constexpr double sphere_factor = D == 2 ? 10 + 96 * half_ulp : 16 + 224 * half_ulp;
+  static constexpr double rounding = 1 + 16 * half_ulp; // of the differences and of this product
   double orientation_bound_ = 0;
   double sphere_bound_ = 0;
 };

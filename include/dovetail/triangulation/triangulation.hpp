@@ -66,11 +66,13 @@ struct triangulation {
     return i;
   }
   /// The points of an element that is no ghost.
-  corner_points<D> points_of(local_id e) const {
-    corner_points<D> result;
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = point((*this)[e].vertices[i]);
-    return result;
+  corner_places<D> points_of(local_id e) const {
+    const auto& v = (*this)[e].vertices;
+    const point_of<D>* const at = points.data();
+    if constexpr (D == 2)
+      return {at + v[0], at + v[1], at + v[2]};
+    else
+      return {at + v[0], at + v[1], at + v[2], at + v[3]};
   }
 
   /// Makes two sides each other's neighbour.

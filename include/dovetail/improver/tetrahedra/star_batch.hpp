@@ -63,15 +63,18 @@ public:
                                                 {s[3][k] - p.x, s[4][k] - p.y, s[5][k] - p.z},
                                                 {s[6][k] - p.x, s[7][k] - p.y, s[8][k] - p.z});
     }
+    return least_of(out, padded_, 2);
+  }
+  /// The least of the first `count` values, a multiple of `lanes`, and `bound`.
+  static float least_of(const values& of, int count, float bound) {
     std::array<float, lanes> least;
-    least.fill(2);
-    for (int i = 0; i < padded_; i += lanes)
+    least.fill(bound);
+    for (int i = 0; i < count; i += lanes)
       for (int l = 0; l < lanes; ++l)
-        least[l] = detail::smaller(out[i + l], least[l]);
-    float worst = 2;
+        least[l] = detail::smaller(of[i + l], least[l]);
     for (const float value : least)
-      worst = detail::smaller(value, worst);
-    return worst;
+      bound = detail::smaller(value, bound);
+    return bound;
   }
   int padded_size() const { return padded_; } ///< sides, rounded up to whole vectors
 

@@ -58,8 +58,8 @@ struct recovery_attempt {
 class boundary_recovery {
 public:
   boundary_recovery(local_changes& changes, std::span<const simplex<2>> triangles,
-                    const recovery_attempt& attempt)
-      : changes_(changes), attempt_(attempt), kept_(triangles), flips_(changes, kept_),
+                    const boundary_sides& sides, const recovery_attempt& attempt)
+      : changes_(changes), attempt_(attempt), kept_(triangles, sides), flips_(changes, kept_),
         splits_(changes, kept_), removal_(changes, kept_),
         given_points_(static_cast<local_id>(changes.mesh().points.size())),
         all_work_(changes.work() + attempt.work + work_per_triangle * triangles.size()) {
@@ -359,8 +359,10 @@ private:
 /// Linear in the elements, and where something was missing about 20 us for each edge or triangle.
 /// \param mesh a tetrahedrization with its ghosts, which changes
 /// \param triangles three indices of its vertices each
-inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const simplex<2>> triangles) {
-  const auto lacking = detail::missing_triangles(mesh, detail::kept_entities(triangles));
+/// \param sides those of `triangles`
+inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const simplex<2>> triangles,
+                                        const boundary_sides& sides) {
+  const auto lacking = detail::missing_triangles(mesh, triangles, sides);
   if (lacking.empty())
     return {};
   using attempt = detail::recovery_attempt;
@@ -371,7 +373,7 @@ inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const 
   std::size_t operations = 0;
   for (std::size_t k = 0;; ++k) {
     detail::local_changes changes(mesh);
-    detail::boundary_recovery recovery(changes, triangles, attempts[k]);
+    detail::boundary_recovery recovery(changes, triangles, sides, attempts[k]);
     try {
       recovery_counts counts = recovery.run(lacking);
       counts.operations = operations + changes.work();

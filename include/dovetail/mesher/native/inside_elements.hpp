@@ -11,7 +11,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -53,11 +52,14 @@ private:
     if (known == where)
       return;
     if (known != place::unknown)
-      throw mesher_error("the element at " + place_text(middle_of(e)) +
-                         " is inside and outside of the boundary at once; check that it is closed and that "
-                         "its triangles are oriented outwards");
+      throw_contradiction(e);
     known = where;
     front_.push_back(e);
+  }
+  [[noreturn, gnu::noinline]] void throw_contradiction(local_id e) const {
+    throw mesher_error("the element at " + place_text(middle_of(e)) +
+                       " is inside and outside of the boundary at once; check that it is closed and that "
+                       "its triangles are oriented outwards");
   }
   /// Of a ghost, that of its side.
   vec3 middle_of(local_id e) const {
@@ -72,21 +74,16 @@ private:
   }
   /// Notes which sides of an element are triangles of the boundary; the number of them.
   std::size_t raise_walls(local_id e) {
-    const auto& vertices = mesh_[e].vertices;
-    int given = 0;
-    for (const local_id v : vertices)
-      given += v >= 0 && v < given_points_;
-    if (given < 3)
+    const auto& v = mesh_[e].vertices;
+    const auto is_given = [&](local_id one) { return one >= 0 && one < given_points_; };
+    if (is_given(v[0]) + is_given(v[1]) + is_given(v[2]) + is_given(v[3]) < 3)
       return 0;
     std::size_t found = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      simplex<2> side{};
-      bool finite = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        side[k] = vertices[numbering::sides<3>[i][k]];
-        finite = finite && side[k] >= 0;
-      }
-      const auto match = finite ? boundary_.find(side) : boundary_sides::match{};
+      const auto& local = numbering::sides<3>[i];
+      const simplex<2> side{v[local[0]], v[local[1]], v[local[2]]};
+      const bool may_be_one = is_given(side[0]) && is_given(side[1]) && is_given(side[2]);
+      const auto match = may_be_one ? boundary_.find(side) : boundary_sides::match{};
       if (!match)
         continue;
       ++found;
@@ -99,9 +96,11 @@ private:
     while (!front_.empty()) {
       const local_id e = front_.back();
       front_.pop_back();
+      const unsigned walls = walls_[e];
+      const place where = place_[e];
       for (std::size_t i = 0; i < 4; ++i)
-        if ((walls_[e] >> i & 1U) == 0)
-          set(triangulation<3>::element_of(mesh_[e].across[i]), place_[e]);
+        if ((walls >> i & 1U) == 0)
+          set(triangulation<3>::element_of(mesh_[e].across[i]), where);
     }
   }
 
@@ -115,13 +114,12 @@ private:
 
 } // namespace detail
 
-/// The elements inside of `triangles`, which are all sides of elements, are oriented outwards of the inside
-/// and have their vertices among the first `given_points`; a triangle inside is listed in both directions.
+/// The elements inside of a boundary, whose triangles are all sides of elements, are oriented outwards of the
+/// inside and have their vertices among the first `given_points`; one inside is listed in both directions.
 /// All of these points come first in the result, then the others that are used, in their order. Linear.
 /// Throws `mesher_error` when a triangle is missing or the boundary contradicts itself.
-inline simplicial_mesh<3> inside_elements(const triangulation<3>& t, std::span<const simplex<2>> triangles,
+inline simplicial_mesh<3> inside_elements(const triangulation<3>& t, const boundary_sides& boundary,
                                           std::size_t given_points) {
-  const boundary_sides boundary(triangles);
   const std::vector<char> inside =
       detail::inside_flood(t, boundary, static_cast<local_id>(given_points)).run();
   std::vector<local_id> number(t.points.size(), no_id);

@@ -25,7 +25,8 @@ inline vertex_pair sorted_pair(local_id u, local_id v) {
 /// Those of a boundary, less some of them and with others that take their place for a while.
 class kept_entities {
 public:
-  explicit kept_entities(std::span<const simplex<2>> triangles) : sides_(triangles) {
+  /// `sides` are those of `triangles` and must outlive this.
+  kept_entities(std::span<const simplex<2>> triangles, const boundary_sides& sides) : sides_(sides) {
     for (const auto& triangle : triangles)
       for (const auto& local : numbering::sides<2>)
         edges_.push_back(sorted_pair(triangle[local[0]], triangle[local[1]]));
@@ -45,9 +46,6 @@ public:
     });
   }
 
-  /// Of the boundary, each once.
-  const std::vector<simplex<2>>& triangles() const { return triangles_; }
-  const boundary_sides& sides() const { return sides_; }
   /// Whether a vertex is no higher than those of the boundary, which come first.
   bool is_of_boundary(local_id v) const { return v >= 0 && v < vertices_; }
 
@@ -110,7 +108,7 @@ private:
     return has_vertex(u) && has_vertex(v);
   }
 
-  boundary_sides sides_;
+  const boundary_sides& sides_;
   std::vector<vertex_pair> edges_;
   std::vector<simplex<2>> triangles_;
   local_id vertices_ = 0;

@@ -3,37 +3,43 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/mesher/native/kept_entities.hpp"
 #include "dovetail/mesher/native/recovery_targets.hpp"
 #include "dovetail/triangulation/local_changes.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace dovetail::detail {
 
-/// The triangles of the boundary that are no sides of elements. Linear.
+/// Those of `triangles` that are no sides of elements, each once. Linear.
 inline std::vector<triangle_target> missing_triangles(const triangulation<3>& mesh,
-                                                      const kept_entities& kept) {
-  std::vector<char> found(kept.sides().entries().size(), 0);
+                                                      std::span<const simplex<2>> triangles,
+                                                      const boundary_sides& sides) {
+  std::vector<char> found(sides.entries().size(), 0);
+  const auto is_of_boundary = [&](local_id v) { return sides.may_have(v); };
   for (local_id e = 0; e < static_cast<local_id>(mesh.cells.size()); ++e) {
     const auto& v = mesh[e].vertices;
-    const int on_boundary = kept.is_of_boundary(v[0]) + kept.is_of_boundary(v[1]) +
-                            kept.is_of_boundary(v[2]) + kept.is_of_boundary(v[3]);
+    const int on_boundary =
+        is_of_boundary(v[0]) + is_of_boundary(v[1]) + is_of_boundary(v[2]) + is_of_boundary(v[3]);
     if (on_boundary < 3 || !mesh.is_alive(e))
       continue;
     for (const auto& local : numbering::sides<3>) {
       const simplex<2> side{v[local[0]], v[local[1]], v[local[2]]};
-      if (kept.is_of_boundary(side[0]) && kept.is_of_boundary(side[1]) && kept.is_of_boundary(side[2]))
-        if (const auto match = kept.sides().find(side))
+      if (is_of_boundary(side[0]) && is_of_boundary(side[1]) && is_of_boundary(side[2]))
+        if (const auto match = sides.find(side))
           found[match.entry] = 1;
     }
   }
   std::vector<triangle_target> missing;
-  for (const auto& t : kept.triangles())
-    if (found[kept.sides().find(t).entry] == 0)
+  for (const auto& t : triangles)
+    if (char& is_found = found[sides.find(t).entry]; is_found == 0) {
+      is_found = 1; // one listed in both directions is one
       missing.push_back({t});
+    }
   return missing;
 }
 

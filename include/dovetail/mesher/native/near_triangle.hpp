@@ -40,13 +40,25 @@ public:
       box.include(p);
     return inflated(box, far_);
   }
+  /// What tells of most points that the triangle does not forbid them.
+  struct surroundings {
+    vec3 middle;
+    double radius, far;
+
+    /// As `forbids`, but may be true where that is false.
+    bool may_forbid(vec3 p, double clearance) const {
+      const double reach = radius + std::max(clearance, far);
+      return norm_squared(p - middle) <= reach * reach;
+    }
+  };
+  surroundings around() const { return {middle_, radius_, far_}; }
   /// Is p nearer than `clearance`, or in the smallest ball with the triangle's corners on it and near it?
   bool forbids(vec3 p, double clearance) const {
-    const double far = std::max(clearance, far_);
-    if (norm_squared(p - middle_) > (radius_ + far) * (radius_ + far))
-      return false;
     const bool in_ball = norm_squared(p - ball_center_) < ball_radius_squared_;
-    const double forbidden = in_ball ? far : clearance;
+    const double forbidden = in_ball ? std::max(clearance, far_) : clearance;
+    const double reach = radius_ + forbidden, height = dot(normal_, p - middle_);
+    if (norm_squared(p - middle_) > reach * reach || height * height > rounding * forbidden * forbidden)
+      return false;
     return distance_squared_to(p) < forbidden * forbidden;
   }
 
@@ -55,6 +67,7 @@ private:
   /// Over the radius: how far a ball around a triangle that is large for the sizes still counts. The rest of
   /// the triangle's neighbourhood is outside of the piece, where no points are made.
   static constexpr double cap_height = 0.3;
+  static constexpr double rounding = 1 + 1e-6; ///< heights over distances, at most
   double distance_squared_to(vec3 p) const {
     const auto w = nearest_on_triangle(a_, b_, c_, p);
     return norm_squared(w[0] * a_ + w[1] * b_ + w[2] * c_ - p);
@@ -71,10 +84,12 @@ private:
         (norm_squared(ac) * cross(normal, ab) + norm_squared(ab) * cross(ac, normal)) / divisor;
     ball_center_ = a_ + to_center;
     ball_radius_squared_ = norm_squared(to_center);
+    normal_ = normal / norm(normal);
   }
 
   vec3 a_, b_, c_;
   vec3 middle_, ball_center_;
+  vec3 normal_; ///< of length 1, or 0 for a flat triangle
   double size_ = 0;
   double radius_ = 0; ///< of the ball about the middle that the triangle is in
   double ball_radius_squared_ = 0;

@@ -78,7 +78,8 @@ public:
   /// Is no triangle nearer to a point of the leaf than `clearance`, and p in the ball of none?
   bool is_clear(std::size_t leaf, vec3 p, double clearance) const {
     for (std::size_t k = cells_[leaf].first; k < cells_[leaf].end; ++k)
-      if (triangles_[near_[k]].forbids(p, clearance))
+      if (const local_id t = near_[k];
+          surroundings_[t].may_forbid(p, clearance) && triangles_[t].forbids(p, clearance))
         return false;
     return true;
   }
@@ -118,6 +119,7 @@ private:
     for (const auto& t : boundary.elements) {
       const auto at = [&](std::size_t k) { return boundary.points[t[k]]; };
       triangles_.emplace_back(std::array{at(0), at(1), at(2)}, size);
+      surroundings_.push_back(triangles_.back().around());
       seeds_.push_back({triangles_.back().middle(), triangles_.back().size()});
       reaches_.push_back(triangles_.back().reach());
     }
@@ -305,11 +307,12 @@ private:
   inside_surface inside_;
   octree tree_;
   std::vector<near_triangle> triangles_;
+  std::vector<near_triangle::surroundings> surroundings_; ///< of each triangle
   std::vector<box3> reaches_;                         ///< of each triangle, while building
   std::vector<seed> seeds_;                           ///< of each triangle, while building
   std::vector<cell> cells_;                           ///< per node of the octree
   std::vector<std::array<std::uint32_t, 8>> corners_; ///< of each node, while building
-  std::vector<local_id> near_;
+  std::vector<local_id> near_; ///< triangles, leaf by leaf
   double points_in_kept_ = 0; ///< foreseen in the leaves that are narrow enough, while building
 };
 

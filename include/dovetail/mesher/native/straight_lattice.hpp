@@ -60,16 +60,21 @@ inline std::vector<vec3> straight_lattice(const piece_octree& piece, const inter
   const double clearance = options.clearance * piece.uniform_size();
   const double jitter = options.jitter * piece.uniform_size();
   std::uint64_t places = 0;
+  vec3 last_clear = within.lower - (within.upper - within.lower) - 4 * clearance * vec3{1, 1, 1};
+  bool last_is_inside = false;
   for (std::size_t n = 0; n < tree.leaf_count(); ++n) {
     const std::size_t leaf = tree.leaf(n);
     if (piece.is_outside(leaf))
       continue;
-    const auto shares_clear_space = [&](vec3 p) {
-      return !points.empty() && distance(points.back(), p) < 2 * clearance;
-    };
     for_each_lattice_place(tree.box(leaf), within.lower, step, [&](vec3 place) {
       const vec3 p = place + jitter * scattered_vector(places++);
-      if (!piece.is_clear(leaf, p, clearance) || !(shares_clear_space(p) || piece.is_inside(leaf, p)))
+      if (!piece.is_clear(leaf, p, clearance))
+        return;
+      // No triangle is between two places that close which are clear.
+      const bool shares_clear_space = distance(last_clear, p) < 2 * clearance;
+      last_is_inside = shares_clear_space ? last_is_inside : piece.is_inside(leaf, p);
+      last_clear = p;
+      if (!last_is_inside)
         return;
       if (static_cast<double>(points.size()) >= options.most_points)
         throw_too_many_points(options.most_points);
