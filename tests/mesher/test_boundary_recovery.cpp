@@ -34,11 +34,11 @@ recovered_piece recover_and_check(const shapes::surface& boundary, const std::ve
   detail::append_far_corners(points);
   auto made = triangulate_points<3>(points);
   recovered_piece piece;
-  piece.counts = recover_boundary(made.triangulation, boundary.elements);
+  piece.counts = recover_boundary(made.triangulation, boundary_sides(boundary.elements));
   dovetail_test::check_structure(made.triangulation);
   CHECK(made.triangulation.points.size() >= points.size());
   CHECK(std::equal(points.begin(), points.end(), made.triangulation.points.begin()));
-  piece.mesh = inside_elements(made.triangulation, boundary.elements, boundary.points.size());
+  piece.mesh = inside_elements(made.triangulation, boundary_sides(boundary.elements), boundary.points.size());
   piece.mesh.tags.assign(piece.mesh.elements.size(), 3);
   CHECK_NOTHROW(check_mesher_result({boundary, 3}, piece.mesh));
   CHECK(random_pieces::fault_of(boundary, piece.mesh).empty());
@@ -127,7 +127,8 @@ TEST_CASE("a cavity is divided by a triangle that an edge pierces, or left as it
   auto points = cut.points;
   detail::append_far_corners(points);
   detail::local_changes changes(triangulate_points<3>(points).triangulation);
-  const detail::kept_entities kept(cut.elements);
+  const boundary_sides sides(cut.elements);
+  const detail::kept_entities kept(sides);
   const detail::triangle_target target{{0, 1, 2}};
   REQUIRE_FALSE(target.is_there(changes));
   detail::obstacles found;
@@ -163,16 +164,16 @@ TEST_CASE("what cannot be recovered is named: a triangle through another, a poin
     auto points = in_a_triangle.points;
     detail::append_far_corners(points);
     auto made = triangulate_points<3>(points);
-    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, in_a_triangle.elements),
+    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, boundary_sides(in_a_triangle.elements)),
                          doctest::Contains("which passes through point (0.3, 0.45, 1)"), mesher_error);
   }
   for (const auto& boundary : {crossing, with_void_at({0.5, 0.5, 1})}) {
     auto points = boundary.points;
     detail::append_far_corners(points);
     auto made = triangulate_points<3>(points);
-    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, boundary.elements),
+    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, boundary_sides(boundary.elements)),
                          doctest::Contains("could not be recovered: edge ("), mesher_error);
-    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, boundary.elements),
+    CHECK_THROWS_WITH_AS(recover_boundary(made.triangulation, boundary_sides(boundary.elements)),
                          doctest::Contains("which passes through"), mesher_error);
   }
 }
@@ -208,10 +209,9 @@ TEST_CASE("pieces that the first attempts fail at are filled by later ones") {
     append(points, interior_points(piece.boundary, size));
     detail::append_far_corners(points);
     detail::local_changes changes(triangulate_points<3>(points).triangulation);
-    const auto lacking =
-        detail::missing_triangles(changes.mesh(), detail::kept_entities(piece.boundary.elements));
-    CHECK_THROWS_AS(detail::boundary_recovery(changes, piece.boundary.elements, {}).run(lacking),
-                    mesher_error);
+    const boundary_sides sides(piece.boundary.elements);
+    const auto lacking = detail::missing_triangles(changes.mesh(), sides);
+    CHECK_THROWS_AS(detail::boundary_recovery(changes, sides, {}).run(lacking), mesher_error);
     const auto result = mesher::native{}({piece.boundary, 0}, size);
     CHECK(random_pieces::fault_of(piece.boundary, result.mesh) == "");
     CHECK(result.summary.get("recovery_operations") < 80'000'000);
@@ -233,8 +233,9 @@ TEST_CASE("boundaries that pass through themselves are refused, and soon") {
   detail::append_far_corners(points);
   const auto made = triangulate_points<3>(points);
   detail::local_changes changes(made.triangulation);
-  const auto lacking = detail::missing_triangles(changes.mesh(), detail::kept_entities(hopeless.elements));
-  CHECK_THROWS_AS(detail::boundary_recovery(changes, hopeless.elements, {}).run(lacking), mesher_error);
+  const boundary_sides sides(hopeless.elements);
+  const auto lacking = detail::missing_triangles(changes.mesh(), sides);
+  CHECK_THROWS_AS(detail::boundary_recovery(changes, sides, {}).run(lacking), mesher_error);
   CHECK(changes.work() < 30'000'000);
 }
 
@@ -261,7 +262,8 @@ TEST_CASE("points added are removed where neighbours can take their place") {
     points.push_back({0.1 * k, 0.13 * k, 0.6 - 0.05 * k});
   detail::append_far_corners(points);
   detail::local_changes changes(triangulate_points<3>(points).triangulation);
-  const detail::kept_entities kept(shapes::cube(2).elements);
+  const boundary_sides sides(shapes::cube(2).elements);
+  const detail::kept_entities kept(sides);
   detail::point_removal removal(changes, kept);
   for (local_id v = given; v < given + 5; ++v) {
     CHECK(removal.remove(v));
@@ -280,17 +282,19 @@ TEST_CASE("recovery gives the same mesh every time") {
 TEST_CASE("no boundary, and elements inside of a boundary that is none") {
   auto made = triangulate_points<3>(shapes::cube(2).points);
   const auto before = made.triangulation.cells.size();
-  CHECK(recover_boundary(made.triangulation, {}).missing_edges == 0);
+  CHECK(recover_boundary(made.triangulation, boundary_sides({})).missing_edges == 0);
   CHECK(made.triangulation.cells.size() == before);
   auto boundary = shapes::cube(2);
   auto points = boundary.points;
   detail::append_far_corners(points);
   made = triangulate_points<3>(points);
-  recover_boundary(made.triangulation, boundary.elements);
+  recover_boundary(made.triangulation, boundary_sides(boundary.elements));
   boundary.elements.pop_back(); // open
-  CHECK_THROWS_AS(inside_elements(made.triangulation, boundary.elements, boundary.points.size()),
-                  mesher_error);
+  CHECK_THROWS_AS(
+      inside_elements(made.triangulation, boundary_sides(boundary.elements), boundary.points.size()),
+      mesher_error);
   boundary.elements = {{0, 1, 25}}; // no side of an element
-  CHECK_THROWS_AS(inside_elements(made.triangulation, boundary.elements, boundary.points.size()),
-                  mesher_error);
+  CHECK_THROWS_AS(
+      inside_elements(made.triangulation, boundary_sides(boundary.elements), boundary.points.size()),
+      mesher_error);
 }

@@ -98,6 +98,18 @@ TEST_CASE_TEMPLATE("nearly degenerate points with doubles are triangulated", D,
   }
 }
 
+TEST_CASE("nearly degenerate points are triangulated also where the box says nothing of them") {
+  // The box around all of them is so large that no sphere of these points is decided by it.
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    auto points = nearly_degenerate_points<3>(60, seed);
+    for (const double x : {-90.0, 100.0})
+      for (const double y : {-90.0, 100.0})
+        for (const double z : {-90.0, 100.0})
+          points.push_back({x, y, z});
+    triangulate_and_check<3>(points);
+  }
+}
+
 TEST_CASE_TEMPLATE("grids fill their box", D, std::integral_constant<int, 2>,
                    std::integral_constant<int, 3>) {
   for (const double step : {1.0, 0.1}) {

@@ -16,24 +16,24 @@ namespace dovetail_test {
 using namespace dovetail;
 
 template <int D>
-double orientation(const corner_points<D>& p) {
+double orientation(const corner_places<D>& p) {
   if constexpr (D == 2)
-    return orient2d(p[0], p[1], p[2]);
+    return orient2d(*p[0], *p[1], *p[2]);
   else
-    return orient3d(p[0], p[1], p[2], p[3]);
+    return orient3d(*p[0], *p[1], *p[2], *p[3]);
 }
 template <int D>
-double sphere_side(const corner_points<D>& p, point_of<D> q) {
+double sphere_side(const corner_places<D>& p, point_of<D> q) {
   if constexpr (D == 2)
-    return in_circle(p[0], p[1], p[2], q);
+    return in_circle(*p[0], *p[1], *p[2], q);
   else
-    return in_sphere(p[0], p[1], p[2], p[3], q);
+    return in_sphere(*p[0], *p[1], *p[2], *p[3], q);
 }
-inline double measure(const std::array<vec2, 3>& p) {
-  return cross(p[1] - p[0], p[2] - p[0]) / 2;
+inline double measure(const corner_places<2>& p) {
+  return cross(*p[1] - *p[0], *p[2] - *p[0]) / 2;
 }
-inline double measure(const std::array<vec3, 4>& p) {
-  return signed_volume(p[0], p[1], p[2], p[3]);
+inline double measure(const corner_places<3>& p) {
+  return signed_volume(*p[0], *p[1], *p[2], *p[3]);
 }
 
 /// The number of living ghosts, after checking: neighbours are mutual and share the side's vertices in
@@ -94,9 +94,9 @@ void check_locally_delaunay(const triangulation<D>& t) {
       if (!t.is_ghost(e)) {
         faults += sphere_side<D>(t.points_of(e), t.point(apex)) > 0;
       } else {
-        corner_points<D> corners;
+        corner_places<D> corners;
         for (std::size_t k = 0; k < corners.size(); ++k)
-          corners[k] = t[e].vertices[k] < 0 ? t.point(apex) : t.point(t[e].vertices[k]);
+          corners[k] = &t.point(t[e].vertices[k] < 0 ? apex : t[e].vertices[k]);
         faults += orientation<D>(corners) > 0;
       }
     }

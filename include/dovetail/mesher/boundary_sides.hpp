@@ -35,7 +35,9 @@ public:
   explicit boundary_sides(std::span<const simplex<2>> triangles);
 
   /// Whether a vertex is one that triangles may have: it is no higher than theirs.
-  bool may_have(local_id v) const { return v >= 0 && static_cast<std::size_t>(v) + 1 < bucket_begins_.size(); }
+  bool may_have(local_id v) const {
+    return v >= 0 && static_cast<std::size_t>(v) + 1 < bucket_begins_.size();
+  }
   /// The entry with the vertices of `side`, if there is one.
   match find(const simplex<2>& side) const {
     const auto [lowest, middle, highest] = sorted_vertices(side);
@@ -52,6 +54,8 @@ public:
         return {static_cast<local_id>(at), parity(side)};
     return {};
   }
+  /// As they were given.
+  const std::vector<simplex<2>>& triangles() const { return triangles_; }
   /// All triangles, each once whatever its directions.
   const std::vector<entry>& entries() const { return entries_; }
   /// The input triangle that is oriented like the side asked for; no_id when only its reverse was listed.
@@ -71,6 +75,7 @@ private:
   /// Adds the next triangle of the last bucket.
   void append_to_bucket(const simplex<2>& triangle, local_id index);
 
+  std::vector<simplex<2>> triangles_;
   std::vector<std::size_t> bucket_begins_; ///< per vertex: of the entries whose lowest it is
   std::vector<entry> entries_;             ///< in a bucket by their other vertices
 };

@@ -18,7 +18,8 @@
 
 namespace dovetail {
 
-DOVETAIL_INLINE boundary_sides::boundary_sides(std::span<const simplex<2>> triangles) {
+DOVETAIL_INLINE boundary_sides::boundary_sides(std::span<const simplex<2>> triangles)
+    : triangles_(triangles.begin(), triangles.end()) {
   const std::size_t point_count = count_points(triangles);
   auto by_lowest = sorted_into_rows<local_id>(point_count, [&](const auto& put) {
     for (std::size_t t = 0; t < triangles.size(); ++t)

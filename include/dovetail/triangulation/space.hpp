@@ -18,10 +18,7 @@ namespace dovetail {
 template <int D>
 using point_of = std::conditional_t<D == 2, vec2, vec3>;
 
-/// The points of the vertices of a simplex.
-template <int D>
-using corner_points = std::array<point_of<D>, static_cast<std::size_t>(D) + 1>;
-/// Where these are kept.
+/// Where the points of the vertices of a simplex are kept.
 template <int D>
 using corner_places = std::array<const point_of<D>*, static_cast<std::size_t>(D) + 1>;
 
@@ -96,8 +93,8 @@ private:
                 std::max(extent.z, std::abs(v.z))};
     }
     constexpr double terms = sphere_terms / 3; // of which each has its own square of a distance
-    const double bound = rounding * sphere_factor * half_ulp * terms *
-                         (extent.x * extent.y * extent.z * norm_squared(extent));
+    const double bound =
+        rounding * sphere_factor * half_ulp * terms * (extent.x * extent.y * extent.z * norm_squared(extent));
     return std::abs(value) > bound ? value : dovetail::in_sphere(*p[0], *p[1], *p[2], *p[3], q);
   }
 

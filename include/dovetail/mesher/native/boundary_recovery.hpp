@@ -57,12 +57,10 @@ struct recovery_attempt {
 /// Makes edges and triangles parts of the mesh one after the other.
 class boundary_recovery {
 public:
-  boundary_recovery(local_changes& changes, std::span<const simplex<2>> triangles,
-                    const boundary_sides& sides, const recovery_attempt& attempt)
-      : changes_(changes), attempt_(attempt), kept_(triangles, sides), flips_(changes, kept_),
-        splits_(changes, kept_), removal_(changes, kept_),
-        given_points_(static_cast<local_id>(changes.mesh().points.size())),
-        all_work_(changes.work() + attempt.work + work_per_triangle * triangles.size()) {
+  boundary_recovery(local_changes& changes, const boundary_sides& sides, const recovery_attempt& attempt)
+      : changes_(changes), attempt_(attempt), kept_(sides), flips_(changes, kept_), splits_(changes, kept_),
+        removal_(changes, kept_), given_points_(static_cast<local_id>(changes.mesh().points.size())),
+        all_work_(changes.work() + attempt.work + work_per_triangle * sides.triangles().size()) {
     changes_.limit_work(all_work_);
   }
 
@@ -349,20 +347,18 @@ private:
 
 } // namespace detail
 
-/// Changes a tetrahedrization, in which all vertices of `triangles` are, until each of these is a side of an
-/// element. Points that had to be added are behind the others and inside of elements, or in none at all when
-/// they could be removed again. `triangles` may be listed in both directions. Throws `mesher_error`, and the
-/// tetrahedrization is as it was, naming the places when some could not be recovered: those that pass through
-/// others, or what was missing when the work was spent that is allowed, which is a few seconds' in all
-/// attempts and some more for each triangle.
+/// Changes a tetrahedrization, in which all vertices of the boundary are, until each of its triangles is a
+/// side of an element. Points that had to be added are behind the others and inside of elements, or in none
+/// at all when they could be removed again. Triangles may be listed in both directions. Throws
+/// `mesher_error`, and the tetrahedrization is as it was, naming the places when some could not be recovered:
+/// those that pass through others, or what was missing when the work was spent that is allowed, which is a
+/// few seconds' in all attempts and some more for each triangle.
 ///
 /// Linear in the elements, and where something was missing about 20 us for each edge or triangle.
 /// \param mesh a tetrahedrization with its ghosts, which changes
-/// \param triangles three indices of its vertices each
-/// \param sides those of `triangles`
-inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const simplex<2>> triangles,
-                                        const boundary_sides& sides) {
-  const auto lacking = detail::missing_triangles(mesh, triangles, sides);
+/// \param sides triangles of three indices of its vertices each
+inline recovery_counts recover_boundary(triangulation<3>& mesh, const boundary_sides& sides) {
+  const auto lacking = detail::missing_triangles(mesh, sides);
   if (lacking.empty())
     return {};
   using attempt = detail::recovery_attempt;
@@ -373,7 +369,7 @@ inline recovery_counts recover_boundary(triangulation<3>& mesh, std::span<const 
   std::size_t operations = 0;
   for (std::size_t k = 0;; ++k) {
     detail::local_changes changes(mesh);
-    detail::boundary_recovery recovery(changes, triangles, sides, attempts[k]);
+    detail::boundary_recovery recovery(changes, sides, attempts[k]);
     try {
       recovery_counts counts = recovery.run(lacking);
       counts.operations = operations + changes.work();

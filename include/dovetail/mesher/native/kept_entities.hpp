@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <span>
 #include <vector>
 
 namespace dovetail::detail {
@@ -25,14 +24,14 @@ inline vertex_pair sorted_pair(local_id u, local_id v) {
 /// Those of a boundary, less some of them and with others that take their place for a while.
 class kept_entities {
 public:
-  /// `sides` are those of `triangles` and must outlive this.
-  kept_entities(std::span<const simplex<2>> triangles, const boundary_sides& sides) : sides_(sides) {
-    for (const auto& triangle : triangles)
+  /// `sides` must outlive this.
+  explicit kept_entities(const boundary_sides& sides) : sides_(sides) {
+    for (const auto& triangle : sides.triangles())
       for (const auto& local : numbering::sides<2>)
         edges_.push_back(sorted_pair(triangle[local[0]], triangle[local[1]]));
     sort_unique(edges_);
     std::vector<char> known(sides_.entries().size(), 0);
-    for (const auto& triangle : triangles)
+    for (const auto& triangle : sides.triangles())
       if (char& is_known = known[sides_.find(triangle).entry]; is_known == 0) {
         is_known = 1; // one listed in both directions is one
         triangles_.push_back(triangle);

@@ -10,14 +10,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace dovetail::detail {
 
-/// Those of `triangles` that are no sides of elements, each once. Linear.
+/// The triangles of the boundary that are no sides of elements, each once. Linear.
 inline std::vector<triangle_target> missing_triangles(const triangulation<3>& mesh,
-                                                      std::span<const simplex<2>> triangles,
                                                       const boundary_sides& sides) {
   std::vector<char> found(sides.entries().size(), 0);
   const auto is_of_boundary = [&](local_id v) { return sides.may_have(v); };
@@ -35,7 +33,7 @@ inline std::vector<triangle_target> missing_triangles(const triangulation<3>& me
     }
   }
   std::vector<triangle_target> missing;
-  for (const auto& t : triangles)
+  for (const auto& t : sides.triangles())
     if (char& is_found = found[sides.find(t).entry]; is_found == 0) {
       is_found = 1; // one listed in both directions is one
       missing.push_back({t});

@@ -308,11 +308,11 @@ private:
   octree tree_;
   std::vector<near_triangle> triangles_;
   std::vector<near_triangle::surroundings> surroundings_; ///< of each triangle
-  std::vector<box3> reaches_;                         ///< of each triangle, while building
-  std::vector<seed> seeds_;                           ///< of each triangle, while building
-  std::vector<cell> cells_;                           ///< per node of the octree
-  std::vector<std::array<std::uint32_t, 8>> corners_; ///< of each node, while building
-  std::vector<local_id> near_; ///< triangles, leaf by leaf
+  std::vector<box3> reaches_;                             ///< of each triangle, while building
+  std::vector<seed> seeds_;                               ///< of each triangle, while building
+  std::vector<cell> cells_;                               ///< per node of the octree
+  std::vector<std::array<std::uint32_t, 8>> corners_;     ///< of each node, while building
+  std::vector<local_id> near_;                            ///< triangles, leaf by leaf
   double points_in_kept_ = 0; ///< foreseen in the leaves that are narrow enough, while building
 };
 
