@@ -26,18 +26,15 @@ class kept_entities {
 public:
   /// `sides` must outlive this.
   explicit kept_entities(const boundary_sides& sides) : sides_(sides) {
-    for (const auto& triangle : sides.triangles())
-      for (const auto& local : numbering::sides<2>)
-        edges_.push_back(sorted_pair(triangle[local[0]], triangle[local[1]]));
-    sort_unique(edges_);
     std::vector<char> known(sides_.entries().size(), 0);
     for (const auto& triangle : sides.triangles())
       if (char& is_known = known[sides_.find(triangle).entry]; is_known == 0) {
         is_known = 1; // one listed in both directions is one
         triangles_.push_back(triangle);
       }
-    for (const auto& edge : edges_)
-      vertices_ = std::max(vertices_, edge[1] + 1);
+    for (const auto& triangle : triangles_)
+      for (const local_id v : triangle)
+        vertices_ = std::max(vertices_, v + 1);
     triangles_at_ = sorted_into_rows<local_id>(static_cast<std::size_t>(vertices_), [&](const auto& put) {
       for (std::size_t t = 0; t < triangles_.size(); ++t)
         for (const local_id v : triangles_[t])
@@ -53,7 +50,12 @@ public:
     if (!changed_edges_.empty())
       if (const auto changed = changed_edges_.find(edge); changed != changed_edges_.end())
         return changed->second;
-    return std::binary_search(edges_.begin(), edges_.end(), edge);
+    if (!is_of_boundary(edge[0]) || !is_of_boundary(edge[1]))
+      return false;
+    const auto at_one = triangles_at_[edge[0]], at_other = triangles_at_[edge[1]];
+    const auto fewer = at_one.size() < at_other.size() ? at_one : at_other;
+    return std::any_of(fewer.begin(), fewer.end(),
+                       [&](local_id t) { return has_edge(triangles_[t], edge[0], edge[1]); });
   }
   bool has(local_id u, local_id v, local_id w) const {
     if (!changed_triangles_.empty())
@@ -108,7 +110,6 @@ private:
   }
 
   const boundary_sides& sides_;
-  std::vector<vertex_pair> edges_;
   std::vector<simplex<2>> triangles_;
   local_id vertices_ = 0;
   std::map<vertex_pair, bool> changed_edges_; // whether they are kept now
