@@ -14,7 +14,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace dovetail::io {
@@ -27,19 +26,20 @@ public:
   /// An element, triangle or tetrahedron, given by the global numbers of its points.
   template <std::size_t N>
   void element(std::array<global_id, N> vertices) {
-    bool mirrored = false;
-    const auto order = [&](std::size_t i, std::size_t j) {
-      if (vertices[j] < vertices[i]) {
-        std::swap(vertices[i], vertices[j]);
-        mirrored = !mirrored;
-      }
+    std::uint64_t mirrored = 0;
+    const auto order = [&](std::size_t i, std::size_t j) { // without branches: they could not be foretold
+      const std::uint64_t exchange = vertices[j] < vertices[i] ? 1 : 0;
+      const auto exchanged = (vertices[i] ^ vertices[j]) & -static_cast<global_id>(exchange);
+      vertices[i] ^= exchanged;
+      vertices[j] ^= exchanged;
+      mirrored ^= exchange;
     };
     if constexpr (N == 4)
       order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);
     else
       order(0, 1), order(1, 2), order(0, 1);
     content_hash hash;
-    hash.word(mirrored ? 2 : 1);
+    hash.word(1 + mirrored);
     for (const auto v : vertices)
       hash.word(static_cast<std::uint64_t>(v));
     sum_ += hash.value();
