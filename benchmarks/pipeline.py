@@ -7,7 +7,8 @@ table of each and the ratios, as markdown. All programs run one after the other;
 
 With --against-hxt nothing is written, and the whole command, by whatever --mesher, is compared with Gmsh's own with HXT
 and two threads, at the size that gives it the same number of elements within 5 %. Gmsh writes its mesh, but
-the time between its messages that it begins and that it has done so is taken off. Its quality is that of the file,
+the time between its messages that it begins and that it has done so is taken off; with --written both write a binary
+MSH file, and nothing is taken off. Its quality is that of the file,
 measured by `dovetail stats`; dovetail's is that of its own report. With --repeat N the two commands take turns N
 times, and the medians of their wall and processor seconds are compared: what a machine does besides hits both.
 """
@@ -102,16 +103,16 @@ def run_dovetail(driver, model, size, workers, out, options):
 
 def driver_options(options):
     return (["--mesher", options.mesher] if options.mesher else []) + \
-        (["--format", "none"] if options.against_hxt else []) + options.driver_options
+        (["--format", "msh" if options.written else "none"] if options.against_hxt else []) + options.driver_options
 
 
-def run_gmsh_unwritten(gmsh, model, size, mesh, limit):
-    """Wall seconds of the whole command without those of writing, and all its processor seconds, by HXT on several
-    threads."""
+def run_gmsh_whole(gmsh, size, mesh, options):
+    """Wall seconds of the whole command, without those of writing unless all write, and all its processor seconds, by
+    HXT on several threads."""
     begin = time.monotonic()
     written = []
-    with subprocess.Popen(["timeout", str(limit), gmsh, "-3", "-algo", "hxt", "-clmin", repr(size), "-clmax",
-                           repr(size), "-nt", str(GMSH_THREADS), "-format", "msh41", "-bin", "-o", mesh, model],
+    with subprocess.Popen(["timeout", str(options.limit), gmsh, "-3", "-algo", "hxt", "-clmin", repr(size), "-clmax",
+                           repr(size), "-nt", str(GMSH_THREADS), "-format", "msh41", "-bin", "-o", mesh, options.model],
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           errors="replace") as process:
         for line in process.stdout:
@@ -122,7 +123,8 @@ def run_gmsh_unwritten(gmsh, model, size, mesh, limit):
     end = time.monotonic()
     if process.returncode != 0 or len(written) != 2:
         raise Failure(f"gmsh -algo hxt -clmax {size}: exit status {process.returncode}")
-    return end - begin - (written[1] - written[0]), usage.ru_utime + usage.ru_stime
+    writing = 0 if options.written else written[1] - written[0]
+    return end - begin - writing, usage.ru_utime + usage.ru_stime
 
 
 def run_gmsh(gmsh, algorithm, model, size, folder, limit):
@@ -148,7 +150,7 @@ def gmsh_with_as_many(driver, gmsh, size, elements, options, folder):
     report = os.path.join(folder, "gmsh.json")
     own = float(f"{options.gmsh_size or GMSH_SIZE_FACTOR * size:.4g}")
     for _ in range(4):
-        seconds = run_gmsh_unwritten(gmsh, options.model, own, mesh, options.limit)
+        seconds = run_gmsh_whole(gmsh, own, mesh, options)
         run([driver, "stats", mesh, "--report", report], options.limit)
         os.remove(mesh)
         result = read_json(report)
@@ -225,7 +227,8 @@ def take_turns(driver, gmsh, size, out, gmsh_size, runs, gmsh_result, options):
     other = [gmsh_result]
     for _ in range(options.repeat - 1):
         own.append(run_dovetail(driver, options.model, size, workers, out, options))
-        seconds = run_gmsh_unwritten(gmsh, options.model, gmsh_size, os.devnull, options.limit)
+        mesh = out + ".gmsh.msh" if options.written else os.devnull
+        seconds = run_gmsh_whole(gmsh, gmsh_size, mesh, options)
         other.append(dict(zip(("command_seconds", "processor_seconds"), seconds)))
     for result, turns in ((runs[workers], own), (gmsh_result, other)):
         medians = {key: statistics.median(turn[key] for turn in turns)
@@ -233,8 +236,9 @@ def take_turns(driver, gmsh, size, out, gmsh_size, runs, gmsh_result, options):
         result.update(medians)
 
 
-def print_whole_commands(runs, gmsh_size, gmsh_result):
-    print("\n| whole command, nothing written | elements | seconds | over Gmsh's | processor seconds "
+def print_whole_commands(runs, gmsh_size, gmsh_result, options):
+    output = "binary MSH files written" if options.written else "nothing written"
+    print(f"\n| whole command, {output} | elements | seconds | over Gmsh's | processor seconds "
           "| smallest dihedral angle, degrees | under 12 degrees, per million | under 24 degrees, per million |")
     print("|---|--:|--:|--:|--:|--:|--:|--:|")
 
@@ -283,6 +287,7 @@ def main():
     parser.add_argument("--limit", type=float, default=1800, help="seconds for each program")
     parser.add_argument("--mesher", help="of `dovetail mesh`; hxt implies --against-hxt")
     parser.add_argument("--against-hxt", action="store_true", help="whole commands, in turns with Gmsh's own with HXT")
+    parser.add_argument("--written", action="store_true", help="with --against-hxt: both write binary MSH files")
     parser.add_argument("--gmsh-size", type=float, help="first size to try for Gmsh with --against-hxt")
     parser.add_argument("--repeat", type=int, default=1, help="turns of each command with --against-hxt")
     parser.add_argument("--alone", action="store_true", help="leave TetGen and Gmsh out")
@@ -307,7 +312,7 @@ def main():
             gmsh = find_gmsh()
             gmsh_size, gmsh_result = gmsh_with_as_many(driver, gmsh, size, elements, options, folder)
             take_turns(driver, gmsh, size, out, gmsh_size, runs, gmsh_result, options)
-            print_whole_commands(runs, gmsh_size, gmsh_result)
+            print_whole_commands(runs, gmsh_size, gmsh_result, options)
         else:
             print_others([(name, attempt(measure))
                           for name, measure in measure_others(options, options.build, size, out, folder)], runs)

@@ -130,6 +130,16 @@ template <class Number>
   return (a_lift * bcd - b_lift * cda) + (c_lift * dab - d_lift * abc);
 }
 
+/// As `exact_sign`, for what is no multiple of a common unit. Not inlined: it needs much of the stack.
+template <std::size_t N, class Determinant>
+[[gnu::noinline]] double sign_by_expansions(const std::array<double, N>& a, const std::array<double, N>& b,
+                                            const Determinant& determinant) {
+  std::array<expansion<2>, N> expansions;
+  for (std::size_t i = 0; i < N; ++i)
+    expansions[i] = exact_difference(a[i], b[i]);
+  return determinant(expansions).sign();
+}
+
 /// The exact sign of a determinant of the differences a[i] - b[i].
 template <std::size_t N, class Determinant>
 double exact_sign(const std::array<double, N>& a, const std::array<double, N>& b,
@@ -140,10 +150,7 @@ double exact_sign(const std::array<double, N>& a, const std::array<double, N>& b
   std::array<fixed_integer<2>, N> wider_integers;
   if (integer_differences(a, b, wider_integers))
     return determinant(wider_integers).sign();
-  std::array<expansion<2>, N> expansions;
-  for (std::size_t i = 0; i < N; ++i)
-    expansions[i] = exact_difference(a[i], b[i]);
-  return determinant(expansions).sign();
+  return sign_by_expansions(a, b, determinant);
 }
 
 double orient2d_exact(vec2 a, vec2 b, vec2 c);

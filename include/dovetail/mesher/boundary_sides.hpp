@@ -1,6 +1,6 @@
 /// @file
 /// Finds, for a side of an element, the boundary triangle a mesher was given there, and what lies on which
-/// side of it. Shared by the checks and by the flood fill.
+/// side of it. Shared by recovery, the flood fill, labels, checks and adapters.
 #pragma once
 
 #include "dovetail/mesh/simplex_grouping.hpp"
@@ -34,14 +34,14 @@ public:
   /// Throws `mesher_error` when a triangle is degenerate or listed twice in the same direction.
   explicit boundary_sides(std::span<const simplex<2>> triangles);
 
+  /// One more than the highest vertex of all triangles.
+  std::size_t vertex_count() const { return bucket_begins_.size() - 1; }
   /// Whether a vertex is one that triangles may have: it is no higher than theirs.
-  bool may_have(local_id v) const {
-    return v >= 0 && static_cast<std::size_t>(v) + 1 < bucket_begins_.size();
-  }
+  bool may_have(local_id v) const { return v >= 0 && static_cast<std::size_t>(v) < vertex_count(); }
   /// The entry with the vertices of `side`, if there is one.
   match find(const simplex<2>& side) const {
     const auto [lowest, middle, highest] = sorted_vertices(side);
-    if (static_cast<std::size_t>(lowest) + 1 >= bucket_begins_.size())
+    if (!may_have(lowest))
       return {};
     std::size_t at = bucket_begins_[lowest], end = bucket_begins_[lowest + 1];
     while (end - at > few) {
@@ -67,7 +67,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t few = 8; // entries, one of which is found the faster by looking at each
+  static constexpr std::size_t few = 8; // entries: so many are faster looked at one by one than halved
 
   /// One more than the largest vertex.
   static std::size_t count_points(std::span<const simplex<2>> triangles);

@@ -35,7 +35,8 @@ struct native {
   double size_scale = 1.0; ///< multiplies the field, and what it says of its least sizes
 
   /// Meshes the inside of `input.boundary`. Throws `mesher_error` when a part of the boundary could not be
-  /// recovered, which it names; `sizing_error` when the field gives an unusable size.
+  /// recovered, which it names; `sizing_error` when the field gives an unusable size. The pipeline checks the
+  /// result; who calls this alone can do so by `check_mesher_result`.
   mesher_result<3> operator()(const mesher_input<3>& input, const any_sizing& size) const;
 };
 

@@ -13,25 +13,24 @@
 
 namespace dovetail::detail {
 
-/// A list that makes room for several items at once, not with each.
+/// A list that looks after room for several items at once. `add` does not: call `make_room` before.
 template <class T>
-class buffer {
+class roomy_list {
 public:
   std::size_t size() const { return size_; }
   void clear() { size_ = 0; }
-  /// For `more` items, to be added without a look at the room.
+  /// For `more` items.
   void make_room(std::size_t more) {
     if (size_ + more > items_.size())
       items_.resize(2 * (size_ + more));
   }
   void add(const T& item) { items_[size_++] = item; }
   T& operator[](std::size_t k) { return items_[k]; }
-  const T& operator[](std::size_t k) const { return items_[k]; }
   T* begin() { return items_.data(); }
   T* end() { return items_.data() + size_; }
 
 private:
-  std::vector<T> items_ = std::vector<T>(64);
+  std::vector<T> items_;
   std::size_t size_ = 0;
 };
 
@@ -90,6 +89,7 @@ private:
            local_id start) {
     states_.resize(t.cells.size(), state::unknown);
     hole_.clear();
+    hole_.make_room(1);
     rim_.clear();
     hole_.add(start);
     state_of(start) = state::inside;
@@ -236,8 +236,8 @@ private:
   static constexpr std::size_t most_tabled = 512;
 
   std::vector<state> states_; // per element; unknown between two points
-  buffer<local_id> hole_, fresh_, rim_vertices_;
-  buffer<rim_side> rim_;
+  roomy_list<local_id> hole_, fresh_, rim_vertices_;
+  roomy_list<rim_side> rim_;
   std::vector<local_id> table_;
   std::vector<rim_edge> edges_;
   std::vector<std::uint32_t>

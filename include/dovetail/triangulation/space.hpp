@@ -33,8 +33,8 @@ constexpr std::array<double, 3> coordinates(vec3 p) {
 
 /// Signs of determinants of points within one box. What is far from zero is decided by bounds that hold in
 /// all of the box, which cost nothing (the static filters of S. Pion and A. Fabri,
-/// doi 10.1016/j.scico.2010.09.003, with the constants of Shewchuk, doi 10.1007/PL00009321); the rest by the
-/// predicates of `core`.
+/// doi 10.1016/j.scico.2010.09.003, with the constants of Shewchuk, doi 10.1007/PL00009321); of spheres most
+/// others by the same bounds for the box around their points alone; the rest by the predicates of `core`.
 template <int D>
 class box_predicates {
 public:
@@ -78,21 +78,21 @@ public:
       const vec3 a = *p[0] - q, b = *p[1] - q, c = *p[2] - q, d = *p[3] - q;
       const double value =
           sphere_determinant<double>({a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z});
-      return std::abs(value) > sphere_bound_ ? value : in_near_sphere(value, p, q);
+      return std::abs(value) > sphere_bound_ ? value : in_sphere_by_own_extent(value, p, q);
     }
   }
 
 private:
-  /// Decides by the extent of these points alone, which are few among many in the box: a value that is far
-  /// from zero for them need not be so for all.
-  [[gnu::noinline]] static double in_near_sphere(double value, const corner_places<D>& p, const point& q) {
+  /// Decides by the extent of these points alone.
+  [[gnu::noinline]] static double in_sphere_by_own_extent(double value, const corner_places<D>& p,
+                                                          const point& q) requires(D == 3) {
     vec3 extent;
     for (const point* corner : p) {
       const vec3 v = *corner - q;
       extent = {std::max(extent.x, std::abs(v.x)), std::max(extent.y, std::abs(v.y)),
                 std::max(extent.z, std::abs(v.z))};
     }
-    constexpr double terms = sphere_terms / 3; // of which each has its own square of a distance
+    constexpr double terms = sphere_terms / 3; // the square of a distance is at most that of the extent
     const double bound =
         rounding * sphere_factor * half_ulp * terms * (extent.x * extent.y * extent.z * norm_squared(extent));
     return std::abs(value) > bound ? value : dovetail::in_sphere(*p[0], *p[1], *p[2], *p[3], q);

@@ -72,7 +72,7 @@ private:
   }
 
   /// Approximately the step of length <= radius that maximises min_i (value_i + gradient_i . step).
-  triple<float> best_step(int n, float radius) {
+  triple<float> best_step(int n, float radius) const {
     triple<float> mix{0, 0, 0}; // the convex combination of gradients; the step goes along it
     triple<float> step{0, 0, 0}, best_step{0, 0, 0};
     float best = -3e38F;
@@ -98,19 +98,20 @@ private:
     float value;
     int at;
   };
-  /// The first of the lowest. In two passes, since the first one is turned into vector instructions.
-  prediction lowest_prediction(int n, triple<float> step) {
+  /// The first of the lowest. Two passes, of which the compiler makes vector instructions.
+  prediction lowest_prediction(int n, triple<float> step) const {
+    alignas(64) values predicted;
     for (int i = 0; i < n; ++i) {
       const int k = i;
-      predicted_[k] =
+      predicted[k] =
           values_[k] + gradients_[0][k] * step.x + gradients_[1][k] * step.y + gradients_[2][k] * step.z;
     }
-    const float least = batch::least_of(predicted_, n, 3e38F);
-    const float* const found = std::find(predicted_.data(), predicted_.data() + n, least);
-    return {least, found == predicted_.data() + n ? 0 : static_cast<int>(found - predicted_.data())};
+    const float least = batch::least_of(predicted, n, 3e38F);
+    const float* const found = std::find(predicted.data(), predicted.data() + n, least);
+    return {least, found == predicted.data() + n ? 0 : static_cast<int>(found - predicted.data())};
   }
 
-  alignas(64) values values_, trial_, predicted_;
+  alignas(64) values values_, trial_;
   alignas(64) std::array<values, 3> gradients_;
 };
 

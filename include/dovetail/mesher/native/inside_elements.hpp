@@ -8,7 +8,6 @@
 #include "dovetail/mesher/boundary_sides.hpp"
 #include "dovetail/triangulation/triangulation.hpp"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -13,7 +13,7 @@ struct interior_point_options {
   double cell = 1.055;
   double crowding = 0.68;  ///< least distance between points
   double capture = 0.42;   ///< places that close that two neighbours expect a point at are the same place
-  double clearance = 0.57; ///< least distance from the boundary
+  double clearance = 0.57; ///< least distance from the boundary, less than 1
   /// Sizes that grow by more per length, also away from boundary triangles, are made smaller: no lattice can
   /// follow them.
   double steepest = 0.4;

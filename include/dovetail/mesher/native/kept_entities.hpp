@@ -25,6 +25,7 @@ inline vertex_pair sorted_pair(local_id u, local_id v) {
 class kept_entities {
 public:
   /// `sides` must outlive this.
+  explicit kept_entities(boundary_sides&&) = delete;
   explicit kept_entities(const boundary_sides& sides) : sides_(sides) {
     std::vector<char> known(sides_.entries().size(), 0);
     for (const auto& triangle : sides.triangles())
@@ -32,10 +33,7 @@ public:
         is_known = 1; // one listed in both directions is one
         triangles_.push_back(triangle);
       }
-    for (const auto& triangle : triangles_)
-      for (const local_id v : triangle)
-        vertices_ = std::max(vertices_, v + 1);
-    triangles_at_ = sorted_into_rows<local_id>(static_cast<std::size_t>(vertices_), [&](const auto& put) {
+    triangles_at_ = sorted_into_rows<local_id>(sides.vertex_count(), [&](const auto& put) {
       for (std::size_t t = 0; t < triangles_.size(); ++t)
         for (const local_id v : triangles_[t])
           put(static_cast<std::size_t>(v), static_cast<local_id>(t));
@@ -43,8 +41,9 @@ public:
   }
 
   /// Whether a vertex is no higher than those of the boundary, which come first.
-  bool is_of_boundary(local_id v) const { return v >= 0 && v < vertices_; }
+  bool is_of_boundary(local_id v) const { return sides_.may_have(v); }
 
+  /// Linear in the triangles at one of the ends, that with fewer.
   bool has(local_id u, local_id v) const {
     const vertex_pair edge = sorted_pair(u, v);
     if (!changed_edges_.empty())
@@ -111,7 +110,6 @@ private:
 
   const boundary_sides& sides_;
   std::vector<simplex<2>> triangles_;
-  local_id vertices_ = 0;
   std::map<vertex_pair, bool> changed_edges_; // whether they are kept now
   std::map<simplex<2>, changed_triangle> changed_triangles_;
   compressed_rows<local_id> triangles_at_;                    // per vertex of the boundary

@@ -8,7 +8,6 @@
 #include "dovetail/mesher/native/recovery_targets.hpp"
 #include "dovetail/triangulation/local_changes.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 

@@ -40,7 +40,7 @@ public:
       box.include(p);
     return inflated(box, far_);
   }
-  /// What tells of most points that the triangle does not forbid them.
+  /// Enough of the triangle to see of most points that it does not forbid them.
   struct surroundings {
     vec3 middle;
     double radius, far;
@@ -57,7 +57,7 @@ public:
     const bool in_ball = norm_squared(p - ball_center_) < ball_radius_squared_;
     const double forbidden = in_ball ? std::max(clearance, far_) : clearance;
     const double reach = radius_ + forbidden, height = dot(normal_, p - middle_);
-    if (norm_squared(p - middle_) > reach * reach || height * height > rounding * forbidden * forbidden)
+    if (norm_squared(p - middle_) > slack * reach * reach || height * height > slack * forbidden * forbidden)
       return false;
     return distance_squared_to(p) < forbidden * forbidden;
   }
@@ -67,7 +67,9 @@ private:
   /// Over the radius: how far a ball around a triangle that is large for the sizes still counts. The rest of
   /// the triangle's neighbourhood is outside of the piece, where no points are made.
   static constexpr double cap_height = 0.3;
-  static constexpr double rounding = 1 + 1e-6; ///< heights over distances, at most
+  static constexpr double slack = 1.001; ///< so that rounding decides in `distance_squared_to` alone
+  /// Over the square of the longest edge: of shorter area vectors the direction is not to be relied on.
+  static constexpr double least_area = 1e-6;
   double distance_squared_to(vec3 p) const {
     const auto w = nearest_on_triangle(a_, b_, c_, p);
     return norm_squared(w[0] * a_ + w[1] * b_ + w[2] * c_ - p);
@@ -84,12 +86,14 @@ private:
         (norm_squared(ac) * cross(normal, ab) + norm_squared(ab) * cross(ac, normal)) / divisor;
     ball_center_ = a_ + to_center;
     ball_radius_squared_ = norm_squared(to_center);
-    normal_ = normal / norm(normal);
+    const double longest = std::max({norm_squared(ab), norm_squared(ac), norm_squared(c_ - b_)});
+    if (norm(normal) > least_area * longest)
+      normal_ = normal / norm(normal);
   }
 
   vec3 a_, b_, c_;
   vec3 middle_, ball_center_;
-  vec3 normal_; ///< of length 1, or 0 for a flat triangle
+  vec3 normal_; ///< of length 1, or 0 for a nearly flat triangle, whose heights say nothing
   double size_ = 0;
   double radius_ = 0; ///< of the ball about the middle that the triangle is in
   double ball_radius_squared_ = 0;

@@ -83,8 +83,9 @@ public:
         return false;
     return true;
   }
-  /// Is a point of the leaf inside? So it is, without being asked, when it is clear and nearer to another one
-  /// that is than both their clearances together: a triangle between them would be too near to one of them.
+  /// Is a point of the leaf inside? Where it is clear, it need not be asked when another clear point is
+  /// nearer than both their clearances together: both are inside or none is, as a triangle between them would
+  /// be too near to one of them.
   bool is_inside(std::size_t leaf, vec3 p) const {
     return cells_[leaf].place == place::at_boundary ? inside_(p) : cells_[leaf].place == place::inside;
   }

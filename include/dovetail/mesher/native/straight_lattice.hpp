@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace dovetail::detail {
@@ -60,7 +61,7 @@ inline std::vector<vec3> straight_lattice(const piece_octree& piece, const inter
   const double clearance = options.clearance * piece.uniform_size();
   const double jitter = options.jitter * piece.uniform_size();
   std::uint64_t places = 0;
-  vec3 last_clear = within.lower - (within.upper - within.lower) - 4 * clearance * vec3{1, 1, 1};
+  std::optional<vec3> last_clear;
   bool last_is_inside = false;
   for (std::size_t n = 0; n < tree.leaf_count(); ++n) {
     const std::size_t leaf = tree.leaf(n);
@@ -70,9 +71,9 @@ inline std::vector<vec3> straight_lattice(const piece_octree& piece, const inter
       const vec3 p = place + jitter * scattered_vector(places++);
       if (!piece.is_clear(leaf, p, clearance))
         return;
-      // No triangle is between two places that close which are clear.
-      const bool shares_clear_space = distance(last_clear, p) < 2 * clearance;
-      last_is_inside = shares_clear_space ? last_is_inside : piece.is_inside(leaf, p);
+      // No triangle is between two clear places that close: both are inside, or none is.
+      if (!last_clear || !(distance(*last_clear, p) < 2 * clearance))
+        last_is_inside = piece.is_inside(leaf, p);
       last_clear = p;
       if (!last_is_inside)
         return;
