@@ -2,6 +2,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/mesher/native/interior_points.hpp"
+#include "dovetail/mesher/native/near_triangle.hpp"
 #include "dovetail/mesher/native/straight_lattice.hpp"
 #include "dovetail/mesher/shells.hpp"
 #include "dovetail/sizing/graded.hpp"
@@ -11,9 +12,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <random>
+#include <tuple>
 #include <vector>
 
 using namespace dovetail;
@@ -380,6 +385,84 @@ TEST_CASE("No plane of a straight lattice is doubled or left out") {
       largest_gap = std::max(largest_gap, heights[i] - heights[i - 1]);
     CHECK(largest_gap < 0.6 * h); // planes are half a cell apart
   }
+}
+
+TEST_CASE("A straight lattice has each of its places that is clear and inside") {
+  // Walls that points are asked about once for several of them: voids, gaps and plates about as wide as two
+  // clearances, sheets inside.
+  auto shells = shapes::cube(8, 4);
+  shapes::append(shells, shapes::cube(5, 2.5, {0.7, 0.7, 0.7}), true);
+  shapes::append(shells, shapes::cube(2, 0.8, {1.6, 1.6, 1.6}));
+  std::vector<simplicial_mesh<2>> bodies{shells};
+  for (const double gap : {0.2, 0.55, 0.6, 0.7}) {
+    auto gapped = shapes::cells(shapes::block({0, 0, 0}, {8, 8, 4}), {0.5, 0.5, 0.5});
+    shapes::append(gapped,
+                   shapes::cells(shapes::block({0, 0, 0}, {8, 8, 1}), {0.5, 0.5, gap}, {0, 0, 2 + gap}));
+    bodies.push_back(gapped);
+  }
+  const interior_point_options options;
+  for (const auto& body : bodies) {
+    const any_sizing size = uniform(0.5);
+    const detail::piece_octree piece(body, size, options);
+    REQUIRE(piece.is_uniform());
+    const auto points = detail::straight_lattice(piece, options);
+    REQUIRE(points.size() > 100);
+    // The same lattice, but all places are asked about, in all leaves.
+    const double clearance = options.clearance * 0.5, margin = 1.05 * clearance;
+    const box3 within = inflated(piece.bounds(), -margin);
+    vec3 step;
+    for (int axis = 0; axis < 3; ++axis)
+      step[axis] = detail::step_that_fits(0.25 * options.cell, within.upper[axis] - within.lower[axis]);
+    std::vector<vec3> expected;
+    std::uint64_t places = 0;
+    for (std::size_t n = 0; n < piece.tree().leaf_count(); ++n) {
+      const std::size_t leaf = piece.tree().leaf(n);
+      if (!piece.is_outside(leaf))
+        detail::for_each_lattice_place(piece.tree().box(leaf), within.lower, step, [&](vec3 place) {
+          const vec3 p = place + 0.5 * options.jitter * detail::scattered_vector(places++);
+          if (distance_to(body, p) >= clearance && is_inside(body, p) && piece.is_clear(leaf, p, clearance))
+            expected.push_back(p);
+        });
+    }
+    CHECK(points == expected);
+  }
+}
+
+TEST_CASE("What a triangle forbids, however flat it is and wherever it lies") {
+  std::mt19937 engine(3);
+  const auto uniform_in = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  const double size = 1e-3; // so small that the ball alone counts beyond the clearance
+  const any_sizing sizes = [&](vec3) { return size; };
+  std::size_t forbidden = 0, allowed = 0, wrong = 0;
+  for (const double height : {1.0, 1e-3, 1e-8, 1e-12, 1e-16, 1e-17})
+    for (const double offset : {0.0, 1e3})
+      for (int k = 0; k < 2000; ++k) {
+        const vec3 origin = offset * vec3{1, -0.7, 0.3};
+        const vec3 along = normalized(vec3{uniform_in(-1, 1), uniform_in(-1, 1), uniform_in(-1, 1)});
+        const vec3 aside = normalized(cross(along, {0.3, 0.5, uniform_in(0.2, 0.9)}));
+        // In the order in which the triangle looks at them: rounding is the same then.
+        std::array<vec3, 3> at{origin, origin + along,
+                               origin + uniform_in(0.1, 0.9) * along + height * aside};
+        std::sort(at.begin(), at.end(),
+                  [](vec3 p, vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); });
+        const detail::near_triangle triangle(at, sizes);
+        const double clearance = uniform_in(0.01, 0.4);
+        const vec3 p = origin + uniform_in(-0.6, 1.6) * along + uniform_in(-0.6, 0.6) * aside +
+                       uniform_in(-0.6, 0.6) * cross(along, aside);
+        const auto w = nearest_on_triangle(at[0], at[1], at[2], p);
+        const double away = distance(w[0] * at[0] + w[1] * at[1] + w[2] * at[2], p);
+        const bool is_forbidden = triangle.forbids(p, clearance);
+        // Nearer than the clearance everything is forbidden; beyond it only what is in the ball.
+        wrong += away < clearance * (1 - 1e-9) && !is_forbidden;
+        wrong += is_forbidden && !triangle.around().may_forbid(p, clearance);
+        wrong += away > 1 && is_forbidden;
+        (is_forbidden ? forbidden : allowed) += 1;
+      }
+  CHECK(wrong == 0);
+  CHECK(forbidden > 500);
+  CHECK(allowed > 500);
 }
 
 TEST_CASE("A needle far too long for its sizes is refused, and sizes far too small for a piece") {

@@ -135,4 +135,14 @@ TEST_CASE("A boundary listed twice in one direction is refused, in both it is an
   CHECK(sides.listed(sides.find({2, 0, 1})) == 0);
   CHECK(sides.listed(sides.find({0, 2, 1})) == 1);
   CHECK_FALSE(sides.find({0, 1, 3}));
+  CHECK_FALSE(sides.find({0, 1, -1}));
+  CHECK(sides.triangles() == both);
+  CHECK(sides.vertex_count() == 3);
+  CHECK(sides.may_have(0));
+  CHECK(sides.may_have(2));
+  CHECK_FALSE(sides.may_have(3));
+  CHECK_FALSE(sides.may_have(-1));
+  const boundary_sides none({});
+  CHECK_FALSE(none.may_have(0));
+  CHECK_FALSE(none.find({0, 1, 2}));
 }

@@ -110,6 +110,27 @@ TEST_CASE("nearly degenerate points are triangulated also where the box says not
   }
 }
 
+TEST_CASE("spheres are decided as exactly in a large box as by themselves") {
+  for (const double width : {0.5, 1.0, 1e3, 1e9}) {
+    const detail::box_predicates<3> predicates({width, width, width});
+    std::size_t zeros = 0, wrong = 0;
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+      auto p = nearly_degenerate_points<3>(5, seed);
+      if (seed % 10 == 0)
+        for (auto& one : p)
+          one.z = 0.3; // all in one plane: the own extent is nothing
+      if (orient3d(p[0], p[1], p[2], p[3]) < 0)
+        std::swap(p[0], p[1]);
+      const double found = predicates.in_sphere({&p[0], &p[1], &p[2], &p[3]}, p[4]);
+      const double exact = in_sphere(p[0], p[1], p[2], p[3], p[4]);
+      wrong += (found > 0) != (exact > 0) || (found < 0) != (exact < 0);
+      zeros += exact == 0;
+    }
+    CHECK(wrong == 0);
+    CHECK(zeros > 10);
+  }
+}
+
 TEST_CASE_TEMPLATE("grids fill their box", D, std::integral_constant<int, 2>,
                    std::integral_constant<int, 3>) {
   for (const double step : {1.0, 0.1}) {
