@@ -388,8 +388,8 @@ TEST_CASE("No plane of a straight lattice is doubled or left out") {
 }
 
 TEST_CASE("A straight lattice has each of its places that is clear and inside") {
-  // Walls that points are asked about once for several of them: voids, gaps and plates about as wide as two
-  // clearances, sheets inside.
+  // Points are asked about once for several of them, which must not reach across a wall: voids, bodies in
+  // them, gaps and plates about as wide as two clearances.
   auto shells = shapes::cube(8, 4);
   shapes::append(shells, shapes::cube(5, 2.5, {0.7, 0.7, 0.7}), true);
   shapes::append(shells, shapes::cube(2, 0.8, {1.6, 1.6, 1.6}));

@@ -28,11 +28,10 @@ public:
   void element(std::array<global_id, N> vertices) {
     std::uint64_t mirrored = 0;
     const auto order = [&](std::size_t i, std::size_t j) { // without branches: they could not be foretold
-      const std::uint64_t exchange = vertices[j] < vertices[i] ? 1 : 0;
-      const auto exchanged = (vertices[i] ^ vertices[j]) & -static_cast<global_id>(exchange);
-      vertices[i] ^= exchanged;
-      vertices[j] ^= exchanged;
-      mirrored ^= exchange;
+      mirrored ^= vertices[j] < vertices[i] ? 1U : 0U;
+      const global_id low = std::min(vertices[i], vertices[j]);
+      vertices[j] = std::max(vertices[i], vertices[j]);
+      vertices[i] = low;
     };
     if constexpr (N == 4)
       order(0, 1), order(2, 3), order(0, 2), order(1, 3), order(1, 2);

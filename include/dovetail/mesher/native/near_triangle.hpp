@@ -27,7 +27,7 @@ public:
     size_ = std::min(checked_size(size, middle_), much_larger * mean_edge);
     radius_ = std::sqrt(
         std::max({norm_squared(a_ - middle_), norm_squared(b_ - middle_), norm_squared(c_ - middle_)}));
-    find_ball();
+    find_ball_and_normal();
     far_ = std::max(size_, cap_height * std::min(radius_, std::sqrt(ball_radius_squared_)));
   }
 
@@ -74,8 +74,8 @@ private:
     const auto w = nearest_on_triangle(a_, b_, c_, p);
     return norm_squared(w[0] * a_ + w[1] * b_ + w[2] * c_ - p);
   }
-  /// A flat triangle has none.
-  void find_ball() {
+  /// A flat triangle has none of both.
+  void find_ball_and_normal() {
     const vec3 ab = b_ - a_;
     const vec3 ac = c_ - a_;
     const vec3 normal = cross(ab, ac);
