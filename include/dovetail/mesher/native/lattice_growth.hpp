@@ -110,7 +110,7 @@ private:
       return;
     const vec3 middle = piece_.tree().box(leaf).center();
     const spot at{middle, leaf, piece_.size_at(leaf, middle)};
-    grid_.gather(leaf, middle, options_.cell * at.size, gathered_);
+    grid_.gather(leaf, middle, options_.cell * at.size, 0, gathered_);
     if (gathered_.empty() && is_free(at))
       add(at);
   }
@@ -147,8 +147,8 @@ private:
     auto at = find(place);
     if (!at)
       return;
-    grid_.gather(at->leaf, place, neighbourhood * options_.cell * at->size, gathered_);
-    if (is_crowded(*at))
+    if (!grid_.gather(at->leaf, place, neighbourhood * options_.cell * at->size,
+                      options_.crowding * at->size, gathered_))
       return;
     at = find(mean_expectation(*at));
     if (!at || is_crowded(*at))
@@ -160,7 +160,7 @@ private:
 
   bool is_free(const spot& at) const {
     const auto shares_clear_space = [&](const gathered_point& one) {
-      const double both = options_.clearance * (at.size + points_[one.id].size);
+      const double both = options_.clearance * (at.size + one.size);
       return norm_squared(one.place - at.place) < both * both;
     };
     return piece_.is_clear(at.leaf, at.place, options_.clearance * at.size) &&
@@ -180,7 +180,7 @@ private:
   void for_each_expectation(const spot& at, Use&& use) const {
     const double capture = options_.capture * at.size;
     for (const gathered_point& one : gathered_) {
-      const double cell = 0.5 * options_.cell * (at.size + points_[one.id].size);
+      const double cell = 0.5 * options_.cell * (at.size + one.size);
       const vec3 vector = nearest_lattice_vector((at.place - one.place) / cell);
       const vec3 expected = one.place + cell * vector;
       if (norm_squared(expected - at.place) < capture * capture)
@@ -223,7 +223,7 @@ private:
       throw_too_many_points(options_.most_points);
     const auto id = static_cast<std::uint32_t>(points_.size());
     points_.push_back({at.place, at.size, static_cast<std::uint32_t>(at.leaf), settled});
-    grid_.add(at.leaf, at.place);
+    grid_.add(at.leaf, at.place, at.size);
     const std::size_t c = class_of(at.size);
     queues_[c].points.push_back(id);
     lowest_ = std::min(lowest_, c);

@@ -10,12 +10,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace dovetail::detail {
 
 struct gathered_point {
   vec3 place;
+  double size;
   std::uint32_t id;
 };
 
@@ -38,8 +40,8 @@ public:
     }
   }
 
-  /// The point with the number of points before it.
-  void add(std::size_t leaf, vec3 place) {
+  /// The point with the number of points before it, and the size there.
+  void add(std::size_t leaf, vec3 place, double size) {
     cell& to = cells_[cell_of_[leaf]];
     if (to.first == none || chunks_[to.first].count == chunk::room) {
       chunks_.emplace_back().next = to.first;
@@ -50,35 +52,36 @@ public:
     last.x[last.count] = static_cast<float>(from_center.x);
     last.y[last.count] = static_cast<float>(from_center.y);
     last.z[last.count] = static_cast<float>(from_center.z);
-    last.ids[last.count++] = static_cast<std::uint32_t>(places_.size());
-    places_.push_back(place);
+    last.ids[last.count++] = static_cast<std::uint32_t>(points_.size());
+    points_.push_back({place, size, last.ids[last.count - 1]});
     has_points_[leaf] = true;
   }
 
   bool has_points(std::size_t leaf) const { return has_points_[leaf]; }
 
   /// The points within `radius` of a place in the leaf, in an order that depends on what was added alone.
-  void gather(std::size_t leaf, vec3 place, double radius, std::vector<gathered_point>& to) {
+  /// Stops and returns false when one is within `too_close`.
+  bool gather(std::size_t leaf, vec3 place, double radius, double too_close,
+              std::vector<gathered_point>& to) {
     to.clear();
     cell& own = cells_[cell_of_[leaf]];
     if (own.begin == own.end)
       find_neighbours(own);
-    const double bound = radius * radius;
-    const vec3 from_own = own.in_units(place - own.center);
-    const double own_radius = radius * own.per_half;
-    for (std::uint32_t k = own.begin; k < own.end; ++k) {
-      const neighbour& near = neighbours_[k];
-      if (!near.may_hold(from_own, own_radius))
-        continue;
-      const cell& other = cells_[near.number];
+    const double bound = radius * radius, bound_of_close = too_close * too_close;
+    for (const std::uint32_t number : cells_near(own, place, radius)) {
+      const cell& other = cells_[number];
       const vec3 from_center = other.in_units(place - other.center);
       const float loose = loosened(radius * other.per_half, 1);
       for (std::uint32_t at = other.first; at != none; at = chunks_[at].next)
-        search(chunks_[at], from_center, loose, [&](std::uint32_t id) {
-          if (norm_squared(places_[id] - place) < bound)
-            to.push_back({places_[id], id});
-        });
+        for (const std::uint32_t id : points_near(chunks_[at], from_center, loose)) {
+          const double squared = norm_squared(points_[id].place - place);
+          if (squared < bound_of_close)
+            return false;
+          if (squared < bound)
+            to.push_back(points_[id]);
+        }
     }
+    return true;
   }
 
 private:
@@ -99,22 +102,11 @@ private:
 
     vec3 in_units(vec3 v) const { return per_half * v; }
   };
-  /// A cell near another one, in the units of that.
-  struct neighbour {
-    std::array<float, 3> center; ///< from the centre of the other one
-    float half;                  ///< of its width
-    std::uint32_t number;
-
-    /// Whether it may have points within a radius of a place.
-    bool may_hold(vec3 place, double radius) const {
-      float squared = 0;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const float outside =
-            std::max(std::abs(static_cast<float>(place[static_cast<int>(k)]) - center[k]) - half, 0.0F);
-        squared += outside * outside;
-      }
-      return squared <= loosened(radius, half);
-    }
+  /// Cells near one, in the units of that, each with its own place in all arrays.
+  struct neighbour_list {
+    std::vector<float> x, y, z; ///< centres, from the centre of the one
+    std::vector<float> half;    ///< of their widths
+    std::vector<std::uint32_t> numbers;
   };
 
   /// The square of a radius, so much larger that single precision loses nothing within it: coordinates are
@@ -123,10 +115,40 @@ private:
     const double loose = radius + 1e-5 * (half + radius);
     return static_cast<float>(loose * loose);
   }
+  /// How far a coordinate is outside of an interval.
+  static float outside(float x, float center, float half) {
+    const float beyond = std::abs(x - center) - half;
+    return beyond > 0 ? beyond : 0;
+  }
 
-  /// Calls `found(id)` for the points of a chunk whose squared distance is at most `bound`.
-  template <class Found>
-  static void search(const chunk& in, vec3 place, float bound, const Found& found) {
+  /// The neighbours of a cell that may have points within a radius of a place in it. Distances are computed
+  /// in a loop of their own, which compilers turn into vector instructions; so below.
+  std::span<const std::uint32_t> cells_near(const cell& own, vec3 place, double radius) {
+    const std::size_t begin = own.begin, count = own.end - own.begin;
+    const vec3 from_own = own.in_units(place - own.center);
+    const auto px = static_cast<float>(from_own.x), py = static_cast<float>(from_own.y),
+               pz = static_cast<float>(from_own.z), reach = static_cast<float>(radius * own.per_half * 1.00001);
+    const float *x = neighbours_.x.data() + begin, *y = neighbours_.y.data() + begin,
+                *z = neighbours_.z.data() + begin, *half = neighbours_.half.data() + begin;
+    const std::uint32_t* numbers = neighbours_.numbers.data() + begin;
+    excess_.resize(std::max(excess_.size(), count));
+    near_cells_.resize(excess_.size());
+    float* excess = excess_.data();
+    for (std::size_t k = 0; k < count; ++k) {
+      const float dx = outside(px, x[k], half[k]), dy = outside(py, y[k], half[k]),
+                  dz = outside(pz, z[k], half[k]), loose = reach + 1e-5F * half[k];
+      excess[k] = dx * dx + dy * dy + dz * dz - loose * loose;
+    }
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      near_cells_[found] = numbers[k];
+      found += excess[k] <= 0 ? 1 : 0;
+    }
+    return {near_cells_.data(), found};
+  }
+
+  /// Those of a chunk whose squared distance is at most `bound`.
+  std::span<const std::uint32_t> points_near(const chunk& in, vec3 place, float bound) {
     const auto x = static_cast<float>(place.x), y = static_cast<float>(place.y),
                z = static_cast<float>(place.z);
     std::array<float, chunk::room> squared;
@@ -134,12 +156,12 @@ private:
       const float dx = in.x[i] - x, dy = in.y[i] - y, dz = in.z[i] - z;
       squared[i] = dx * dx + dy * dy + dz * dz;
     }
-    std::uint32_t near = 0;
-    for (std::size_t i = 0; i < chunk::room; ++i)
-      near += squared[i] <= bound ? 1U : 0U;
-    for (std::size_t i = 0; near != 0 && i < in.count; ++i)
-      if (squared[i] <= bound)
-        found(in.ids[i]);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < in.count; ++i) {
+      near_points_[found] = in.ids[i];
+      found += squared[i] <= bound ? 1 : 0;
+    }
+    return {near_points_.data(), found};
   }
 
   /// The node that the cell of a leaf is.
@@ -174,9 +196,9 @@ private:
   void find_neighbours(cell& of) {
     const octree& tree = piece_.tree();
     const box3 box = inflated(tree.box(of.node), reach_ * greatest_size(of.node));
-    of.begin = static_cast<std::uint32_t>(neighbours_.size());
+    of.begin = static_cast<std::uint32_t>(neighbours_.numbers.size());
     visit(0, tree.bounds(), box, of);
-    of.end = static_cast<std::uint32_t>(neighbours_.size());
+    of.end = static_cast<std::uint32_t>(neighbours_.numbers.size());
   }
   /// The cells in a node that meet a box, as a cell sees them.
   void visit(std::size_t node, const box3& bounds, const box3& box, const cell& from) {
@@ -184,10 +206,7 @@ private:
     if (const std::uint32_t number = cell_of_[node]; number != none) {
       const vec3 center = from.in_units(cells_[number].center - from.center);
       if (!tree.is_leaf(node) || !piece_.is_outside(node))
-        neighbours_.push_back(
-            {{static_cast<float>(center.x), static_cast<float>(center.y), static_cast<float>(center.z)},
-             static_cast<float>(from.per_half / cells_[number].per_half),
-             number});
+        add_neighbour(number, center, from.per_half / cells_[number].per_half);
       return;
     }
     const vec3 center = bounds.center();
@@ -201,14 +220,26 @@ private:
     }
   }
 
+  void add_neighbour(std::uint32_t number, vec3 center, double half) {
+    neighbours_.x.push_back(static_cast<float>(center.x));
+    neighbours_.y.push_back(static_cast<float>(center.y));
+    neighbours_.z.push_back(static_cast<float>(center.z));
+    neighbours_.half.push_back(static_cast<float>(half));
+    neighbours_.numbers.push_back(number);
+  }
+
   const piece_octree& piece_;
   double reach_;
   std::vector<std::uint32_t> cell_of_; ///< of the nodes that are cells, and of their leaves
   std::vector<bool> has_points_;       ///< per leaf
   std::vector<cell> cells_;
-  std::vector<neighbour> neighbours_;
+  neighbour_list neighbours_;
   std::vector<chunk> chunks_;
-  std::vector<vec3> places_; ///< by number
+  std::vector<gathered_point> points_; ///< by number
+  // Of the call at hand.
+  std::vector<float> excess_;
+  std::vector<std::uint32_t> near_cells_;
+  std::array<std::uint32_t, chunk::room> near_points_;
 };
 
 } // namespace dovetail::detail
