@@ -243,6 +243,28 @@ TEST_CASE("the end that is cut leaves no short edge, nor a face that is all but 
   check_kept_whole(chamfered_cube(0, 1, {0, 1.8, 10}, split_chamfer).model());
 }
 
+TEST_CASE("an end is no wider than the least limit along it") {
+  const discrete_model given = chamfered_cube(0, 1).model();
+  const virtual_model made(given, [](vec3 p) { return 0.4 + 0.2 * p.z; });
+  REQUIRE(kinds_of(made) == std::vector{kind::narrow_end});
+  CHECK(made.suppressed()[0].length == doctest::Approx(0.9 * limit * 0.4).epsilon(0.02));
+}
+
+TEST_CASE("an end is narrow as far as it is so, into whatever curves its sides are cut") {
+  const auto box = [](double x, double y, double z, double dx, double dy, double dz) {
+    return BRepPrimAPI_MakeBox(gp_Pnt(x, y, z), dx, dy, dz).Shape();
+  };
+  // Two blocks beside each other, nearly as high as the one behind them: a strip of its side is left above
+  // them, 0.1 high, and the first of the curves below it is shorter than three limits.
+  BRepAlgoAPI_Fuse with_first(box(0, 0, 0, 10, 10, 10), box(0, -3, 0, 0.6, 3, 9.9));
+  BRepAlgoAPI_Fuse with_both(with_first.Shape(), box(0.6, -2, 0, 5.4, 2, 9.9));
+  const occt_model given = model_of(with_both.Shape());
+  const virtual_model made = without_details(given);
+  CHECK(kinds_of(made) == std::vector{kind::narrow_end, kind::narrow_end});
+  for (const auto& one : made.suppressed())
+    CHECK(one.length == doctest::Approx(0.1));
+}
+
 TEST_CASE("what is large enough stays, and so does everything at no share of the size") {
   check_kept_whole(chamfered_cube(0.2, 0.2).model());
   check_kept_whole(

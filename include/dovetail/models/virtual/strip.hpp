@@ -50,7 +50,7 @@ struct turn_back {
 std::vector<turn_back> turns_of_face(const editable_topology& topology, const limits& allowed, local_id f);
 
 /// The sides at one end of a face as far as they are not further apart than the limit, the curves split
-/// there; nothing where they are so for a short way only. The topology is changed in either case.
+/// there; nothing where that is less than three widths long. The topology is changed in either case.
 std::optional<strip> narrow_end(editable_topology& topology, const limits& allowed, local_id f,
                                 const turn_back& turn);
 

@@ -117,18 +117,21 @@ inline double parameter_at(const geometry_topology::curve& curve, int i, int cou
   return curve.t[0] + (curve.t[1] - curve.t[0]) * i / (count - 1);
 }
 
-/// How far along a side the other one is well within the limit: the first place where it is not, to some
-/// digits; nothing where it is so all the way.
+/// How far along a side the other one is well within the limit there and before: the first place where it is
+/// not, to some digits; nothing where it is so all the way.
 inline std::optional<place_on_side> first_apart(const editable_topology& topology, const limits& allowed,
                                                 const side& one, const side& other) {
+  double least_limit = std::numeric_limits<double>::infinity();
   const auto is_near = [&](std::size_t k, double t) {
     const vec3 p = topology.point(one[k].curve, t);
-    return nearest_on(topology, other, p).distance <= 0.9 * allowed.length(p);
+    const double limit = std::min(least_limit, allowed.length(p));
+    return nearest_on(topology, other, p).distance <= 0.9 * limit;
   };
   for (std::size_t k = 0; k < one.size(); ++k) {
     const auto& curve = topology.curve(one[k].curve);
     double before = one[k].forward ? curve.t[0] : curve.t[1];
     for (int i = 1; i < samples_of_side; ++i) {
+      least_limit = std::min(least_limit, allowed.length(topology.point(one[k].curve, before)));
       const double t = parameter_at(curve, one[k].forward ? i : samples_of_side - 1 - i, samples_of_side);
       if (is_near(k, t)) {
         before = t;
@@ -182,11 +185,11 @@ inline bool cut_where_apart(editable_topology& topology, const limits& allowed, 
       apart.value_or(place_on_side{0, topology.curve(first.curve).t[first.forward], 0});
   const vec3 cut = topology.point(first.curve, on_first.t);
   const place_on_side on_second = nearest_on(topology, tip.sides[1], cut);
-  constexpr double least_way = 3; // limits: else it is not sharp
+  constexpr double least_way = 3; // widths: else it is not sharp
   if ((apart && !is_inside(topology, allowed, tip.sides[0], on_first)) ||
       !is_inside(topology, allowed, tip.sides[1], on_second) ||
       distance(cut, topology.vertex(vertices_of(topology, tip.sides[0]).front()).point) <
-          least_way * allowed.length(cut))
+          least_way * on_second.distance)
     return false;
   if (apart)
     split(topology, tip.sides[0], on_first);
