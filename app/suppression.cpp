@@ -4,6 +4,7 @@
 
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/models/virtual_model.hpp"
+#include "dovetail/sizing/kept_details.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
 #include <algorithm>
@@ -33,7 +34,14 @@ void suppression::apply(model_source& source) {
   if (options_.keep_all)
     return;
   as_drawn_ = source.geometry;
+  given_size_ = source.size;
   simplify(source);
+  fit_sizes(source);
+}
+
+void suppression::fit_sizes(model_source& source) const {
+  if (options_.has_automatic_sizes())
+    source.size = finer_at_details(source.geometry, given_size_);
 }
 
 void suppression::simplify(model_source& source) {
@@ -42,7 +50,7 @@ void suppression::simplify(model_source& source) {
     options.share_of_size = 1;
   const any_sizing size = options_.suppress        ? any_sizing(uniform_size(*options_.suppress))
                           : source.size_of_details ? source.size_of_details
-                                                   : source.size;
+                                                   : given_size_;
   forget(source);
   const virtual_model model(*as_drawn_, size, options);
   if (model.suppressed().empty()) {
@@ -61,9 +69,11 @@ bool suppression::keep(model_source& source, const std::vector<local_id>& faces)
   if (kept_.size() < most_kept && std::any_of(faces.begin(), faces.end(), is_new)) {
     std::copy_if(faces.begin(), faces.end(), std::back_inserter(kept_), is_new);
     simplify(source);
+    fit_sizes(source);
     return true;
   }
   source.geometry = *std::exchange(as_drawn_, std::nullopt);
+  source.size = given_size_;
   forget(source);
   source.summary.warnings.push_back(
       "the model is meshed with all its details: without some of them it could not be");

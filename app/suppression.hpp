@@ -20,7 +20,8 @@ public:
   explicit suppression(const model_options& options);
 
   /// Takes the details away that are such at the final sizes of the source, but for those in thin walls,
-  /// where a size is small at one place of many a detail; notes that in its summary.
+  /// where a size is small at one place of many a detail; notes that in its summary. Automatic sizes are made
+  /// to fit the details that are left.
   void apply(model_source& source);
 
   /// Calls what meshes the source's geometry; when that blames faces, with these as they were drawn, and so
@@ -42,9 +43,11 @@ private:
   /// Makes the geometry again; false when nothing of it was simplified.
   bool keep(model_source& source, const std::vector<local_id>& faces);
   void simplify(model_source& source);
+  void fit_sizes(model_source& source) const;
 
   const model_options& options_;
   std::optional<any_geometry> as_drawn_; ///< when something was taken away
+  any_sizing given_size_;                ///< before it was made to fit
   std::vector<local_id> kept_;
 };
 

@@ -1,0 +1,109 @@
+#include "dovetail/models/plane_domain.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/kept_details.hpp"
+#include "dovetail/sizing/uniform.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace dovetail;
+
+namespace {
+
+/// A square with a slit from its upper side down to (0.5, 0.3), whose bottom is an edge as short as it is wide.
+plane_domain square_with_slit(double width) {
+  const double left = 0.5 - 0.5 * width, right = 0.5 + 0.5 * width;
+  plane_drawing drawing;
+  drawing.polygons = {
+      {{{0, 0}, {1, 0}, {1, 1}, {right, 1}, {right, 0.3}, {left, 0.3}, {left, 1}, {0, 1}}, "square"}};
+  return plane_domain(drawing);
+}
+
+constexpr vec3 bottom{0.5, 0.3, 0};
+
+plane_domain square_with_chamfer(double width) {
+  plane_drawing drawing;
+  drawing.polygons = {{{{0, 0}, {1, 0}, {1, 1 - width}, {1 - width, 1}, {0, 1}}, "square"}};
+  return plane_domain(drawing);
+}
+
+} // namespace
+
+TEST_CASE("sizes grow from a short edge, and are those given where they are smaller") {
+  const any_geometry model = square_with_slit(0.01);
+  const any_sizing given = keep_bounds(uniform_size(0.1));
+  const any_sizing fitted = finer_at_details(model, given);
+  CHECK(fitted(bottom) == doctest::Approx(0.01));
+  CHECK(fitted(bottom + vec3{0.005, 0, 0}) == doctest::Approx(0.01)); // its end
+  CHECK(fitted(bottom - vec3{0, 0.1, 0}) == doctest::Approx(0.01 + 0.4 * 0.1));
+  CHECK(fitted({0.1, 0.1, 0}) == 0.1);
+  CHECK(fitted({0.5, -40, 0}) == 0.1); // no longer the edge's, however far
+  CHECK(smallest_size_in(fitted, model.bounds()) < 0.0101);
+  CHECK(smallest_size_in(fitted, {{0, 0, 0}, {0.1, 0.1, 0}}) == 0.1);
+  const any_sizing steeper = finer_at_details(model, given, {.growth = 0.8});
+  CHECK(steeper(bottom - vec3{0, 0.1, 0}) == doctest::Approx(0.01 + 0.8 * 0.1));
+}
+
+TEST_CASE("sizes grow from a vertex that is near to another curve, across a face and not across a gap") {
+  const auto notched = [](double depth) { // from above to so far over the lower side
+    plane_drawing drawing;
+    drawing.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0.8, 1}, {0.5, depth}, {0.2, 1}, {0, 1}}, "notched"}};
+    return any_geometry(plane_domain(drawing));
+  };
+  const any_sizing given = uniform_size(0.1);
+  const any_sizing fitted = finer_at_details(notched(0.01), given);
+  CHECK(fitted({0.5, 0.01, 0}) == doctest::Approx(0.01));
+  CHECK(fitted({0.5, 0, 0}) == doctest::Approx(0.01));
+  CHECK(fitted({0.55, 0, 0}) == doctest::Approx(0.01 + 0.4 * 0.05));
+  CHECK(finer_at_details(notched(0.03), given)({0.5, 0.03, 0}) == 0.1);
+  CHECK(finer_at_details(notched(0.00005), given)({0.5, 0, 0}) == 0.1); // it is on the lower side
+  // The mouth of the slit has nothing of the square in it.
+  CHECK(finer_at_details(any_geometry(square_with_slit(0.01)), given)({0.5, 1, 0}) == 0.1);
+
+  const auto least_angle = [](const any_geometry& model, const any_sizing& size) {
+    return generate<2>(model, size, parameters<>{}).quality.min_dihedral_deg;
+  };
+  CHECK(least_angle(notched(0.01), given) < 12);
+  CHECK(least_angle(notched(0.01), fitted) > 20);
+}
+
+TEST_CASE("where no edge is short the field is the one given") {
+  const any_sizing given = [](vec3) { return 0.1; };
+  const auto is_given = [&](const any_sizing& size) {
+    return size.target_type() == given.target_type() && size(bottom) == 0.1;
+  };
+  CHECK(is_given(finer_at_details(any_geometry(square_with_slit(0.03)), given)));
+  CHECK_FALSE(is_given(finer_at_details(any_geometry(square_with_slit(0.02)), given)));
+  CHECK(is_given(finer_at_details(any_geometry(square_with_slit(0.02)), given, {.share_of_size = 0.1})));
+}
+
+TEST_CASE("where short edges need too many elements none is fitted") {
+  const any_geometry model = square_with_slit(0.01);
+  const any_sizing given = uniform_size(0.1);
+  const double needed = sizing::kept_details(model, given, {}).elements();
+  CHECK(needed > 100);
+  // The bottom is the only one: the two parts of the upper side are as long as half of it.
+  CHECK(finer_at_details(model, given, {.most_elements = needed * 1.01})(bottom) < 0.02);
+  CHECK(finer_at_details(model, given, {.most_elements = needed * 0.99})(bottom) == 0.1);
+}
+
+TEST_CASE("triangles beside a short edge have good angles when sizes fit it") {
+  const any_geometry model = square_with_chamfer(0.002);
+  const auto least_angle = [&](const any_sizing& size) {
+    const auto result = generate<2>(model, size, parameters<>{});
+    REQUIRE(result.failures.empty());
+    return result.quality.min_dihedral_deg;
+  };
+  CHECK(least_angle(uniform_size(0.1)) < 8);
+  CHECK(least_angle(finer_at_details(model, uniform_size(0.1))) > 20);
+}
+
+TEST_CASE("options out of range are refused") {
+  const any_geometry model = square_with_slit(0.01);
+  for (const double bad : {-1.0, std::nan("")}) {
+    CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.share_of_size = bad}), sizing_error);
+    CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.growth = bad}), sizing_error);
+  }
+  CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.growth = 0}), sizing_error);
+}
