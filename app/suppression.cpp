@@ -31,17 +31,24 @@ suppression::suppression(const model_options& options) : options_(options) {
 }
 
 void suppression::apply(model_source& source) {
-  if (options_.keep_all)
-    return;
-  as_drawn_ = source.geometry;
   given_size_ = source.size;
-  simplify(source);
+  if (!options_.keep_all) {
+    as_drawn_ = source.geometry;
+    simplify(source);
+  }
   fit_sizes(source);
 }
 
 void suppression::fit_sizes(model_source& source) const {
-  if (options_.has_automatic_sizes())
-    source.size = finer_at_details(source.geometry, given_size_);
+  if (!options_.has_automatic_sizes() || options_.proximity == 0.0)
+    return;
+  constexpr double least_share_of_model = 1.0 / 5000; // as in thin walls
+  constexpr double most_by_default = 2e5, most_of_wanted = 0.2;
+  kept_detail_options allowed;
+  allowed.least_size = least_share_of_model * source.geometry.bounds().diagonal();
+  allowed.growth = options_.growth.value_or(allowed.growth);
+  allowed.most_elements = options_.elements ? most_of_wanted * *options_.elements : most_by_default;
+  source.size = finer_at_details(source.geometry, given_size_, allowed);
 }
 
 void suppression::simplify(model_source& source) {
@@ -73,7 +80,7 @@ bool suppression::keep(model_source& source, const std::vector<local_id>& faces)
     return true;
   }
   source.geometry = *std::exchange(as_drawn_, std::nullopt);
-  source.size = given_size_;
+  fit_sizes(source);
   forget(source);
   source.summary.warnings.push_back(
       "the model is meshed with all its details: without some of them it could not be");

@@ -99,4 +99,17 @@ expect_usage_error "--suppress: -1 is not a length" plan nothing.off --suppress=
 expect_usage_error "--suppress: -1 is not a length" compare nothing.off --suppress=-1
 expect_usage_error "--suppress.*--keep-all|--keep-all.*--suppress" mesh nothing.off --suppress 1 --keep-all
 
+# A notch that ends just above the lower side: nothing is left out, and automatic sizes fit the narrow place.
+echo '<svg><path d="M0 0 L10 0 L10 10 L8 10 L5 0.05 L2 10 L0 10 Z"/></svg>' >"$inputs/notch.svg"
+notch() { # options...: leaves $least
+  expect_success mesh "$inputs/notch.svg" --dimension 2 --report report.json "$@"
+  least=$(figure min_dihedral_deg)
+}
+notch
+above "$least" 20 || fault "the least angle beside the notch is $least"
+notch --keep-all
+above "$least" 20 || fault "with all details the least angle beside the notch is $least"
+notch -s 0.6
+above 12 "$least" || fault "a size that was given is another one beside the notch: $least"
+
 ((problems == 0)) || exit 1

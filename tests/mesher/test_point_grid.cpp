@@ -76,6 +76,30 @@ TEST_CASE("Just the points within a radius are gathered, while points are added"
   CHECK(most > 40); // chunks of a cell were full
 }
 
+TEST_CASE("Points just within the radius are gathered, and points just outside are not") {
+  std::vector<detail::gathered_point> gathered;
+  std::mt19937_64 engine{7};
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 60; ++n) {
+    random_points points;
+    points.engine.seed(static_cast<std::uint64_t>(n));
+    const vec3 place = 0.9 * points.random_place();
+    const std::size_t leaf = points.piece.tree().locate(place);
+    const double radius = points.piece.size_at(leaf, place);
+    std::size_t inside = 0;
+    for (int k = 0; k < 200; ++k) {
+      const vec3 direction = normalized(vec3{normal(engine), normal(engine), normal(engine)});
+      const vec3 p = place + (k % 2 == 0 ? 1 - 1e-12 : 1 + 1e-12) * radius * direction;
+      if (norm(p) > 0.99)
+        continue;
+      points.add(p);
+      inside += k % 2 == 0 ? 1 : 0;
+    }
+    points.grid.gather(leaf, place, radius, 0, gathered);
+    CHECK(gathered.size() == inside);
+  }
+}
+
 TEST_CASE("Gathering stops exactly where a point is too close") {
   random_points points;
   for (int n = 0; n < 3000; ++n)

@@ -1,5 +1,6 @@
 /// Details far smaller than the size: what is given up, what stays, and that what is left is a model.
 #include "dovetail/models/occt_model.hpp"
+#include "dovetail/sizing/kept_details.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "models/discrete_shapes.hpp"
 #include "models/virtual_shapes.hpp"
@@ -298,6 +299,32 @@ TEST_CASE("a hole far smaller than the size stays one") {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 3).Shape();
   const TopoDS_Shape pin = BRepPrimAPI_MakeBox(gp_Pnt(5, 5, -1), gp_Pnt(5.1, 5.1, 5)).Shape();
   check_kept_whole(model_of(BRepAlgoAPI_Cut(box, pin).Shape()));
+}
+
+TEST_CASE("sizes fit details that stay: a hole, and a vertex near to the edge of another hole") {
+  const any_sizing given = uniform_size(1.0);
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 3).Shape();
+  const auto cylinder = [](double x, double radius) {
+    return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, 5, -1), gp_Dir(0, 0, 1)), radius, 5).Shape();
+  };
+  const any_geometry pierced = model_of(BRepAlgoAPI_Cut(box, cylinder(5, 0.03)).Shape());
+  const any_sizing at_hole = finer_at_details(pierced, given);
+  // A third of its circumference, around its vertex.
+  CHECK(at_hole({5.03, 5, 0}) == doctest::Approx(2 * std::numbers::pi * 0.03 / 3).epsilon(0.05));
+  CHECK(at_hole({1, 1, 0}) == 1);
+
+  // A slot whose edges are 0.1 from a hole: there the upper and lower face are narrow. And they are not
+  // across the hole or the slot, which is as far from its other side.
+  const TopoDS_Shape slot = BRepPrimAPI_MakeBox(gp_Pnt(6.1, 5, -1), gp_Pnt(6.2, 8, 5)).Shape();
+  BRepAlgoAPI_Cut with_hole(box, cylinder(5, 1));
+  const any_geometry beside = model_of(BRepAlgoAPI_Cut(with_hole.Shape(), slot).Shape());
+  const any_sizing fitted = finer_at_details(beside, given, {.share_of_size = 0.15});
+  for (const double z : {0.0, 3.0}) {
+    CHECK(fitted({6.1, 5, z}) == doctest::Approx(0.1).epsilon(0.02));
+    CHECK(fitted({6, 5, z}) == doctest::Approx(0.1).epsilon(0.02));
+  }
+  CHECK(fitted({6.15, 8, 1.5}) < 0.8); // the slot's own short edges
+  CHECK(fitted({4, 5, 0}) == doctest::Approx(0.1 + 0.4 * 2).epsilon(0.02));
 }
 
 TEST_CASE("a chamfer around a cylinder, and a step all around it, become circles") {

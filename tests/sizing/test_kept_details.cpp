@@ -11,7 +11,8 @@ using namespace dovetail;
 
 namespace {
 
-/// A square with a slit from its upper side down to (0.5, 0.3), whose bottom is an edge as short as it is wide.
+/// A square with a slit from its upper side down to (0.5, 0.3), whose bottom is an edge as short as it is
+/// wide.
 plane_domain square_with_slit(double width) {
   const double left = 0.5 - 0.5 * width, right = 0.5 + 0.5 * width;
   plane_drawing drawing;
@@ -58,8 +59,26 @@ TEST_CASE("sizes grow from a vertex that is near to another curve, across a face
   CHECK(fitted({0.55, 0, 0}) == doctest::Approx(0.01 + 0.4 * 0.05));
   CHECK(finer_at_details(notched(0.03), given)({0.5, 0.03, 0}) == 0.1);
   CHECK(finer_at_details(notched(0.00005), given)({0.5, 0, 0}) == 0.1); // it is on the lower side
-  // The mouth of the slit has nothing of the square in it.
-  CHECK(finer_at_details(any_geometry(square_with_slit(0.01)), given)({0.5, 1, 0}) == 0.1);
+  // The mouth of a slit has nothing of the square in it, whichever way it looks and with lips of any height.
+  for (int turn = 0; turn < 12; ++turn)
+    for (const double left : {0.98, 1.0, 1.02}) {
+      const double angle = 0.1 + 0.5 * turn;
+      const auto turned = [&](vec2 p) {
+        return vec2{std::cos(angle) * p.x - std::sin(angle) * p.y,
+                    std::sin(angle) * p.x + std::cos(angle) * p.y};
+      };
+      plane_drawing drawing;
+      drawing.polygons = {{{}, "lips"}};
+      for (const vec2 p :
+           {vec2{0, 0}, {1, 0}, {1, 1}, {0.505, 1}, {0.505, 0.3}, {0.495, 0.3}, {0.495, left}, {0, left}})
+        drawing.polygons[0].points.push_back(turned(p));
+      const any_geometry model = plane_domain(drawing);
+      const any_sizing by_details = finer_at_details(model, given);
+      const auto at = [&](vec2 p) { return by_details({turned(p).x, turned(p).y, 0}); };
+      CHECK(at({0.505, 1}) == 0.1);
+      CHECK(at({0.495, left}) == 0.1);
+      CHECK(at({0.5, 0.3}) == doctest::Approx(0.01));
+    }
 
   const auto least_angle = [](const any_geometry& model, const any_sizing& size) {
     return generate<2>(model, size, parameters<>{}).quality.min_dihedral_deg;
@@ -78,14 +97,25 @@ TEST_CASE("where no edge is short the field is the one given") {
   CHECK(is_given(finer_at_details(any_geometry(square_with_slit(0.02)), given, {.share_of_size = 0.1})));
 }
 
-TEST_CASE("where short edges need too many elements none is fitted") {
+TEST_CASE("where details need too many elements none is fitted") {
   const any_geometry model = square_with_slit(0.01);
   const any_sizing given = uniform_size(0.1);
-  const double needed = sizing::kept_details(model, given, {}).elements();
-  CHECK(needed > 100);
-  // The bottom is the only one: the two parts of the upper side are as long as half of it.
+  const double needed = sizing::elements_of_growth(0.01, 0.1, 0.4); // the bottom is the only one
   CHECK(finer_at_details(model, given, {.most_elements = needed * 1.01})(bottom) < 0.02);
   CHECK(finer_at_details(model, given, {.most_elements = needed * 0.99})(bottom) == 0.1);
+  // The integrals by the trapezoidal rule.
+  CHECK(sizing::elements_of_growth(1, 4, 0.4) == doctest::Approx(179).epsilon(0.01));
+  CHECK(sizing::elements_of_growth(1, 100, 0.4) == doctest::Approx(2334).epsilon(0.01));
+}
+
+TEST_CASE("no size becomes smaller than is allowed, however short an edge is") {
+  const any_geometry model = square_with_chamfer(1e-7);
+  const any_sizing given = uniform_size(0.1);
+  CHECK(finer_at_details(model, given)({1, 1, 0}) == doctest::Approx(1e-4).epsilon(0.01));
+  const any_sizing fitted = finer_at_details(model, given, {.least_size = 0.01});
+  CHECK(fitted({1, 1, 0}) == doctest::Approx(0.01).epsilon(0.01));
+  CHECK(finer_at_details(model, given, {.least_size = 0.1})({1, 1, 0}) == 0.1);
+  CHECK(generate<2>(model, fitted, parameters<>{}).failures.empty());
 }
 
 TEST_CASE("triangles beside a short edge have good angles when sizes fit it") {
@@ -99,11 +129,14 @@ TEST_CASE("triangles beside a short edge have good angles when sizes fit it") {
   CHECK(least_angle(finer_at_details(model, uniform_size(0.1))) > 20);
 }
 
-TEST_CASE("options out of range are refused") {
+TEST_CASE("options and sizes out of range are refused") {
   const any_geometry model = square_with_slit(0.01);
   for (const double bad : {-1.0, std::nan("")}) {
     CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.share_of_size = bad}), sizing_error);
     CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.growth = bad}), sizing_error);
   }
   CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.growth = 0}), sizing_error);
+  CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.share_of_size = 1.5}), sizing_error);
+  for (const double bad : {-1.0, 0.0, std::nan("")})
+    CHECK_THROWS_AS(finer_at_details(model, [bad](vec3) { return bad; }), sizing_error);
 }

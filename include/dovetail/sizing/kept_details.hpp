@@ -6,6 +6,7 @@
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/compose.hpp"
 #include "dovetail/sizing/erased.hpp"
 #include "dovetail/sizing/point_sizes.hpp"
@@ -16,20 +17,31 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace dovetail {
 
 /// Which details sizes are to fit, and how far that goes.
 struct kept_detail_options {
-  double share_of_size = 0.25;   ///< up to this share of the size there a length is a detail's
+  double share_of_size = 0.25;   ///< up to this share of the size there a length is a detail's; at most 1
   double touching_share = 0.001; ///< vertices nearer to a curve than this share of the size are on it
+  double least_size = 0;         ///< no size becomes smaller, nor than `touching_share` of what it was
   double growth = 0.4;           ///< of the size per length away from details
   double most_elements = 2e5;    ///< where fitting all of them needs more, about, none is fitted
 };
 
 namespace sizing {
+
+/// About how many tetrahedra a size that grows from a place on a surface makes more than the one that it
+/// grows to: the integral of the inverse cube over half a ball. \param from the size at the place \param to
+/// the size that it grows to; larger \param growth of the size per length
+inline double elements_of_growth(double from, double to, double growth) {
+  constexpr double per_cube = 6 * std::numbers::sqrt2; // of regular tetrahedra
+  const double share = from / to, reached = 1 - share;
+  const double inside = -std::log(share) + 2 * share - 0.5 * share * share - 1.5;
+  const double before = reached * reached * reached / 3;
+  return per_cube * 2 * std::numbers::pi * (inside - before) / std::pow(growth, 3);
+}
 
 /// The details of a model that are small for a size, as places where that should be smaller.
 template <geometry_model G>
@@ -37,11 +49,12 @@ class kept_details {
 public:
   /// All must outlive the object.
   kept_details(const G& model, const any_sizing& size, const kept_detail_options& options)
-      : model_(model), size_(size), options_(options), chords_of_(model.topology().curves.size()) {
+      : model_(model), size_(size), options_(options), chords_of_(model.topology().curves.size()),
+        joined_to_(model.topology().vertices.size()) {
     for (std::size_t c = 0; c < chords_of_.size(); ++c)
       if (!model.topology().curves[c].degenerate) {
         chords_of_[c] = chords_of_curve(static_cast<local_id>(c));
-        find_if_short(chords_of_[c]);
+        find_if_short(static_cast<local_id>(c));
       }
     for (std::size_t f = 0; f < model.topology().faces.size(); ++f)
       find_narrow_places(static_cast<local_id>(f));
@@ -49,149 +62,205 @@ public:
 
   /// Where sizes should be so small.
   const std::vector<sized_point>& points() const { return points_; }
-  /// About how many elements that makes beyond those of the size.
-  double elements() const { return elements_; }
+  std::size_t count() const { return count_; }  ///< how many details there are
+  double elements() const { return elements_; } ///< about how many tetrahedra fitting them adds
 
 private:
   /// A part of a curve as a straight line.
   struct chord {
     std::array<vec3, 2> ends; ///< in the curve's direction
     double middle = 0;        ///< parameter of the curve
-    local_id curve = no_id;
-    int coedge = 0; ///< of the face that is looked at
-    box3 box() const {
-      box3 around;
-      around.include(ends[0]);
-      around.include(ends[1]);
-      return around;
-    }
+  };
+  /// A chord as a face passes it.
+  struct passed_chord {
+    const chord* line;
+    local_id curve;
+    int coedge;
+  };
+  /// The nearest place across a face that is found so far.
+  struct nearest_place {
+    double distance;
+    const passed_chord* on = nullptr;
   };
 
-  double limit_at(vec3 p) const { return options_.share_of_size * size_(p); }
+  const geometry_topology& topology() const { return model_.topology(); }
+  double size_at(vec3 p) const { return checked_size(size_, p); }
 
-  /// About half as long as the size in the middle.
+  /// Half as long as the size in the middle of the curve, but for a least and a largest number of them.
   std::vector<chord> chords_of_curve(local_id c) const {
     constexpr int fewest = 8, most = 1024;
-    const auto& range = model_.topology().curves[static_cast<std::size_t>(c)].t;
-    const auto point = [&](double share) {
-      return model_.curve_point(c, range[0] + share * (range[1] - range[0]));
-    };
+    const auto& range = topology().curves[c].t;
+    const auto parameter = [&](double share) { return range[0] + share * (range[1] - range[0]); };
+    const auto point = [&](double share) { return model_.curve_point(c, parameter(share)); };
     double rough = 0;
     for (int k = 0; k < fewest; ++k)
       rough += distance(point(1.0 * k / fewest), point((k + 1.0) / fewest));
-    const double wanted = std::ceil(2 * rough / size_(point(0.5)));
+    const double wanted = std::ceil(2 * rough / size_at(point(0.5)));
     const int count = wanted < most ? std::max(fewest, static_cast<int>(wanted)) : most;
     std::vector<chord> chords;
     vec3 from = point(0);
     for (int k = 1; k <= count; ++k) {
       const vec3 to = point(1.0 * k / count);
-      chords.push_back({{from, to}, range[0] + (k - 0.5) / count * (range[1] - range[0]), c});
+      chords.push_back({{from, to}, parameter((k - 0.5) / count)});
       from = to;
     }
     return chords;
   }
 
-  void find_if_short(const std::vector<chord>& chords) {
+  void find_if_short(local_id c) {
+    const auto& chords = chords_of_[c];
+    const auto& ends = topology().curves[c].vertices;
     double length = 0;
     for (const chord& one : chords)
       length += distance(one.ends[0], one.ends[1]);
+    if (ends[0] == ends[1])
+      length /= 3; // edges that a closed curve has at least
     const vec3 middle = chords[chords.size() / 2].ends[0];
-    if (!(length > 0) || length > limit_at(middle))
+    if (!(length > 0) || length > options_.share_of_size * size_at(middle))
       return;
-    for (const vec3 p : {chords.front().ends[0], middle, chords.back().ends[1]})
-      points_.push_back({p, length});
-    count_elements(length, middle);
+    add(length, {chords.front().ends[0], middle, chords.back().ends[1]});
+    joined_to_[ends[0]].push_back(ends[1]);
+    joined_to_[ends[1]].push_back(ends[0]);
   }
 
   /// Where, across a face, a vertex of it is near to a curve of it that does not end there.
   void find_narrow_places(local_id f) {
-    const auto& topology = model_.topology();
-    const auto& coedges = topology.faces[static_cast<std::size_t>(f)].coedges;
-    std::vector<chord> chords;
+    const auto& coedges = topology().faces[f].coedges;
+    std::vector<passed_chord> passed;
     std::vector<local_id> vertices;
     for (std::size_t k = 0; k < coedges.size(); ++k) {
-      const auto c = static_cast<std::size_t>(coedges[k].curve);
-      for (chord one : chords_of_[c]) {
-        one.coedge = static_cast<int>(k);
-        chords.push_back(one);
-      }
-      vertices.insert(vertices.end(), topology.curves[c].vertices.begin(), topology.curves[c].vertices.end());
+      const local_id c = coedges[k].curve;
+      for (const chord& one : chords_of_[c])
+        passed.push_back({&one, c, static_cast<int>(k)});
+      if (!chords_of_[c].empty())
+        for (const local_id v : topology().curves[c].vertices)
+          vertices.push_back(v);
     }
     sort_unique(vertices);
-    std::vector<box3> boxes;
-    for (const chord& one : chords)
-      boxes.push_back(one.box());
+    std::vector<box3> boxes(passed.size());
+    for (std::size_t k = 0; k < passed.size(); ++k)
+      for (const vec3 end : passed[k].line->ends)
+        boxes[k].include(end);
     const box_tree tree(boxes);
     for (const local_id v : vertices)
-      find_narrow_place(f, v, chords, tree);
+      find_narrow_place(f, v, passed, tree);
   }
 
-  void find_narrow_place(local_id f, local_id v, const std::vector<chord>& chords, const box_tree& tree) {
-    const vec3 p = model_.topology().vertices[static_cast<std::size_t>(v)].point;
-    double least = limit_at(p);
-    vec3 foot = p;
-    tree.for_each([&](const box3& box, std::size_t) { return distance_squared(box, p) < least * least; },
-                  [&](local_id k) {
-                    const chord& one = chords[static_cast<std::size_t>(k)];
-                    const auto& ends = model_.topology().curves[static_cast<std::size_t>(one.curve)].vertices;
-                    if (ends[0] == v || ends[1] == v)
-                      return;
-                    const auto [a, b] = nearest_on_segment(one.ends[0], one.ends[1], p);
-                    const vec3 there = a * one.ends[0] + b * one.ends[1];
-                    if (const double away = distance(there, p);
-                        away < least && dot(into_face(f, one), p - there) > 0) {
-                      least = away;
-                      foot = there;
-                    }
-                  });
-    if (foot == p || least < options_.touching_share * size_(p))
+  void find_narrow_place(local_id f, local_id v, const std::vector<passed_chord>& passed,
+                         const box_tree& tree) {
+    const vec3 p = topology().vertices[v].point;
+    const double size = size_at(p), touching = options_.touching_share * size;
+    const auto ways_in = ways_into_face(f, v);
+    nearest_place best{options_.share_of_size * size};
+    tree.for_each_near(
+        p,
+        [&](const box3& box, std::size_t) {
+          return distance_squared(box, p) < best.distance * best.distance;
+        },
+        [&](local_id k) {
+          const vec3 foot = foot_on(*passed[k].line, p);
+          const double away = distance(foot, p);
+          if (away < best.distance && !is_joined(v, passed[k].curve) && away > touching &&
+              is_across_face(f, passed[k], ways_in, p, foot))
+            best = {away, &passed[k]};
+        });
+    if (best.on == nullptr)
       return;
-    points_.push_back({p, least});
-    points_.push_back({foot, least});
-    count_elements(least, p);
+    const vec3 foot = foot_on(best.on->curve, best.on->line->middle, p);
+    if (const double away = distance(foot, p); away > touching && away < options_.share_of_size * size)
+      add(away, {p, foot});
   }
 
-  /// From a passage of a face into it, of any length.
-  vec3 into_face(local_id f, const chord& along) const {
-    const surface_frame frame = model_.face_frame(f, model_.curve_uv(f, along.coedge, along.middle));
-    const auto& coedges = model_.topology().faces[static_cast<std::size_t>(f)].coedges;
-    const double sign = coedges[static_cast<std::size_t>(along.coedge)].reversed ? -1 : 1;
-    return sign * cross(cross(frame.du, frame.dv), along.ends[1] - along.ends[0]);
+  /// Whether a curve ends at a vertex, or at one that a short edge joins it to.
+  bool is_joined(local_id v, local_id c) const {
+    const auto& ends = topology().curves[c].vertices;
+    return std::any_of(ends.begin(), ends.end(), [&](local_id end) {
+      return end == v || std::find(joined_to_[v].begin(), joined_to_[v].end(), end) != joined_to_[v].end();
+    });
   }
 
-  /// Around a place on a surface, where sizes grow from a length.
-  void count_elements(double length, vec3 place) {
-    constexpr double elements_per_cube = 6 * std::numbers::sqrt2; // of regular tetrahedra
-    elements_ += elements_per_cube * 2 * std::numbers::pi * std::log(size_(place) / length) /
-        std::pow(options_.growth, 3);
+  static vec3 foot_on(const chord& line, vec3 p) {
+    const auto [a, b] = nearest_on_segment(line.ends[0], line.ends[1], p);
+    return a * line.ends[0] + b * line.ends[1];
+  }
+  vec3 foot_on(local_id c, double seed, vec3 p) const {
+    const auto& range = topology().curves[c].t;
+    return model_.curve_point(c, std::clamp(model_.project_to_curve(c, p, seed), range[0], range[1]));
+  }
+
+  /// From the passages of a face that end at a vertex, square to them into the face.
+  std::vector<vec3> ways_into_face(local_id f, local_id v) const {
+    std::vector<vec3> ways;
+    const auto& coedges = topology().faces[f].coedges;
+    for (std::size_t k = 0; k < coedges.size(); ++k) {
+      const local_id c = coedges[k].curve;
+      const auto& ends = topology().curves[c].vertices;
+      for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+        if (ends[end] == v && !chords_of_[c].empty())
+          ways.push_back(into_face(
+              f, {end == 0 ? &chords_of_[c].front() : &chords_of_[c].back(), c, static_cast<int>(k)}));
+    }
+    return ways;
+  }
+  /// Whether the way from a vertex to a foot leaves the vertex into the face, whose corner may be a reflex
+  /// one, and arrives across the face: not through a gap beside it, nor along its boundary.
+  bool is_across_face(local_id f, const passed_chord& at_foot, const std::vector<vec3>& ways_in, vec3 p,
+                      vec3 foot) const {
+    constexpr double least_leaving = 0.05, least_arriving = 0.3; // cosines
+    const vec3 way = normalized(foot - p);
+    return std::any_of(ways_in.begin(), ways_in.end(),
+                       [&](vec3 in) { return dot(in, way) > least_leaving; }) &&
+           dot(into_face(f, at_foot), -way) > least_arriving;
+  }
+  /// From a passage of a face, square to it into the face; of unit length.
+  vec3 into_face(local_id f, const passed_chord& along) const {
+    const surface_frame frame = model_.face_frame(f, model_.curve_uv(f, along.coedge, along.line->middle));
+    const vec3 run = along.line->ends[1] - along.line->ends[0];
+    const vec3 inward = normalized(cross(cross(frame.du, frame.dv), run));
+    return topology().faces[f].coedges[along.coedge].reversed ? -inward : inward;
+  }
+
+  void add(double length, const std::vector<vec3>& places) {
+    const double size = size_at(places.front());
+    const double fitted = std::max({length, options_.least_size, options_.touching_share * size});
+    if (!(fitted < size))
+      return;
+    for (const vec3 p : places)
+      points_.push_back({p, fitted});
+    ++count_;
+    elements_ += elements_of_growth(fitted, size, options_.growth);
   }
 
   const G& model_;
   const any_sizing& size_;
   const kept_detail_options& options_;
-  std::vector<std::vector<chord>> chords_of_; ///< by curve
+  std::vector<std::vector<chord>> chords_of_;    ///< by curve; none of degenerate ones
+  std::vector<std::vector<local_id>> joined_to_; ///< by vertex: those at the other ends of short edges
   std::vector<sized_point> points_;
+  std::size_t count_ = 0;
   double elements_ = 0;
 };
 
 } // namespace sizing
 
 /// A field that at each detail of a model is as small as that, grows from there, and is the one given
-/// elsewhere. Details are edges far shorter than the size, and vertices of a face far nearer, across the face, to
-/// another curve of it: triangles there would have an angle of about the ratio of both. The field given, where there are
-/// none.
-/// Throws `sizing_error` for options out of range.
-/// About n log n in the curves of each face and their lengths in sizes.
-/// \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
-/// \param size the field, asked along all curves
-/// \param options what is a detail
+/// elsewhere. Details are edges far shorter than the size, and vertices of a face far nearer, across the
+/// face, to another curve of it: triangles there would have an angle of about the ratio of both. Where there
+/// are no details, or fitting them needs more elements than allowed, the result is the field given. Throws
+/// `sizing_error` for options out of range, and for sizes that are not positive and finite. About n log n in
+/// the curves of each face and their lengths in sizes. \param model all of whose details are to be kept; with
+/// a `virtual_model` those that it leaves \param size the field, asked at the middle of each curve and at
+/// vertices \param options what is a detail
 template <geometry_model G>
 any_sizing finer_at_details(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
   sizing::checked_length(options.share_of_size, "the share of the size that details have");
-  sizing::checked_length(options.touching_share, "the share of the size that vertices on curves are away");
+  sizing::checked_length(options.touching_share, "the share of the size by which vertices are off curves");
+  sizing::checked_length(options.least_size, "the least size at details");
   sizing::checked_size(options.growth, "the growth of sizes from details");
+  if (options.share_of_size > 1)
+    throw sizing_error("details are smaller than the size; give a share of at most 1");
   const sizing::kept_details<G> found(model, size, options);
-  if (found.points().empty() || found.elements() > options.most_elements)
+  if (found.points().empty() || !(found.elements() <= options.most_elements))
     return size;
   const point_sizes around(found.points(), options.growth, std::numeric_limits<double>::max());
   return keep_bounds(minimum_of(erased_sizing(size), around));

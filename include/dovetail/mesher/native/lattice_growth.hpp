@@ -147,8 +147,8 @@ private:
     auto at = find(place);
     if (!at)
       return;
-    if (!grid_.gather(at->leaf, place, neighbourhood * options_.cell * at->size,
-                      options_.crowding * at->size, gathered_))
+    if (!grid_.gather(at->leaf, place, neighbourhood * options_.cell * at->size, options_.crowding * at->size,
+                      gathered_))
       return;
     at = find(mean_expectation(*at));
     if (!at || is_crowded(*at))

@@ -52,15 +52,16 @@ public:
     last.x[last.count] = static_cast<float>(from_center.x);
     last.y[last.count] = static_cast<float>(from_center.y);
     last.z[last.count] = static_cast<float>(from_center.z);
-    last.ids[last.count++] = static_cast<std::uint32_t>(points_.size());
-    points_.push_back({place, size, last.ids[last.count - 1]});
+    const auto id = static_cast<std::uint32_t>(points_.size());
+    last.ids[last.count++] = id;
+    points_.push_back({place, size, id});
     has_points_[leaf] = true;
   }
 
   bool has_points(std::size_t leaf) const { return has_points_[leaf]; }
 
   /// The points within `radius` of a place in the leaf, in an order that depends on what was added alone.
-  /// Stops and returns false when one is within `too_close`.
+  /// Stops and returns false when one is within `too_close`, which is at most `radius`.
   bool gather(std::size_t leaf, vec3 place, double radius, double too_close,
               std::vector<gathered_point>& to) {
     to.clear();
@@ -122,12 +123,14 @@ private:
   }
 
   /// The neighbours of a cell that may have points within a radius of a place in it. Distances are computed
-  /// in a loop of their own, which compilers turn into vector instructions; so below.
+  /// in a loop of their own, which compilers turn into vector instructions, and what is near is collected
+  /// without a branch, which could not be foretold. So it is in `points_near`.
   std::span<const std::uint32_t> cells_near(const cell& own, vec3 place, double radius) {
     const std::size_t begin = own.begin, count = own.end - own.begin;
     const vec3 from_own = own.in_units(place - own.center);
     const auto px = static_cast<float>(from_own.x), py = static_cast<float>(from_own.y),
-               pz = static_cast<float>(from_own.z), reach = static_cast<float>(radius * own.per_half * 1.00001);
+               pz = static_cast<float>(from_own.z),
+               reach = static_cast<float>(radius * own.per_half * 1.00001);
     const float *x = neighbours_.x.data() + begin, *y = neighbours_.y.data() + begin,
                 *z = neighbours_.z.data() + begin, *half = neighbours_.half.data() + begin;
     const std::uint32_t* numbers = neighbours_.numbers.data() + begin;
@@ -136,7 +139,7 @@ private:
     float* excess = excess_.data();
     for (std::size_t k = 0; k < count; ++k) {
       const float dx = outside(px, x[k], half[k]), dy = outside(py, y[k], half[k]),
-                  dz = outside(pz, z[k], half[k]), loose = reach + 1e-5F * half[k];
+                  dz = outside(pz, z[k], half[k]), loose = reach + 1e-5F * (1 + half[k]);
       excess[k] = dx * dx + dy * dy + dz * dz - loose * loose;
     }
     std::size_t found = 0;

@@ -49,8 +49,9 @@ struct turn_back {
 /// All ends of a face.
 std::vector<turn_back> turns_of_face(const editable_topology& topology, const limits& allowed, local_id f);
 
-/// The sides at one end of a face as far as they are not further apart than the limit, the curves split
-/// there; nothing where that is less than three widths long. The topology is changed in either case.
+/// The sides at one end of a face as far as they are not further apart than the least limit along it, the
+/// curves split there; nothing where that is less than three widths or one limit long. The topology is
+/// changed in either case.
 std::optional<strip> narrow_end(editable_topology& topology, const limits& allowed, local_id f,
                                 const turn_back& turn);
 

@@ -117,7 +117,7 @@ inline double parameter_at(const geometry_topology::curve& curve, int i, int cou
   return curve.t[0] + (curve.t[1] - curve.t[0]) * i / (count - 1);
 }
 
-/// How far along a side the other one is well within the limit there and before: the first place where it is
+/// How far along a side the other one is well within the least limit up to there: the first place where it is
 /// not, to some digits; nothing where it is so all the way.
 inline std::optional<place_on_side> first_apart(const editable_topology& topology, const limits& allowed,
                                                 const side& one, const side& other) {
@@ -185,11 +185,11 @@ inline bool cut_where_apart(editable_topology& topology, const limits& allowed, 
       apart.value_or(place_on_side{0, topology.curve(first.curve).t[first.forward], 0});
   const vec3 cut = topology.point(first.curve, on_first.t);
   const place_on_side on_second = nearest_on(topology, tip.sides[1], cut);
-  constexpr double least_way = 3; // widths: else it is not sharp
+  constexpr double least_way = 3; // widths: else it is not sharp; and one limit, that no short edge is left
   if ((apart && !is_inside(topology, allowed, tip.sides[0], on_first)) ||
       !is_inside(topology, allowed, tip.sides[1], on_second) ||
       distance(cut, topology.vertex(vertices_of(topology, tip.sides[0]).front()).point) <
-          least_way * on_second.distance)
+          std::max(least_way * on_second.distance, allowed.length(cut)))
     return false;
   if (apart)
     split(topology, tip.sides[0], on_first);
