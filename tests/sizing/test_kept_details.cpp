@@ -108,6 +108,15 @@ TEST_CASE("where details need too many elements none is fitted") {
   CHECK(sizing::elements_of_growth(1, 100, 0.4) == doctest::Approx(2334).epsilon(0.01));
 }
 
+TEST_CASE("a short edge is one detail, though its ends are near to each other's edges") {
+  const any_geometry model = square_with_chamfer(0.01);
+  const any_sizing given = uniform_size(0.1);
+  const kept_detail_options options;
+  const sizing::kept_details found(model, given, options);
+  CHECK(found.count() == 1);
+  CHECK(found.elements() == doctest::Approx(sizing::elements_of_growth(0.01 * std::sqrt(2.0), 0.1, 0.4)));
+}
+
 TEST_CASE("no size becomes smaller than is allowed, however short an edge is") {
   const any_geometry model = square_with_chamfer(1e-7);
   const any_sizing given = uniform_size(0.1);
