@@ -149,7 +149,7 @@ private:
   void find_narrow_place(local_id f, local_id v, const std::vector<passed_chord>& passed,
                          const box_tree& tree) {
     const vec3 p = topology().vertices[v].point;
-    const double size = size_at(p), touching = options_.touching_share * size;
+    const double size = size_at(p);
     const auto ways_in = ways_into_face(f, v);
     nearest_place best{options_.share_of_size * size};
     tree.for_each_near(
@@ -160,14 +160,16 @@ private:
         [&](local_id k) {
           const vec3 foot = foot_on(*passed[k].line, p);
           const double away = distance(foot, p);
-          if (away < best.distance && !is_joined(v, passed[k].curve) && away > touching &&
+          if (away < best.distance && !is_joined(v, passed[k].curve) &&
+              away > touching_distance(v, passed[k].curve, size) &&
               is_across_face(f, passed[k], ways_in, p, foot))
             best = {away, &passed[k]};
         });
     if (best.on == nullptr)
       return;
     const vec3 foot = foot_on(best.on->curve, best.on->line->middle, p);
-    if (const double away = distance(foot, p); away > touching && away < options_.share_of_size * size)
+    if (const double away = distance(foot, p);
+        away > touching_distance(v, best.on->curve, size) && away < options_.share_of_size * size)
       add(away, {p, foot});
   }
 
@@ -177,6 +179,12 @@ private:
     return std::any_of(ends.begin(), ends.end(), [&](local_id end) {
       return end == v || std::find(joined_to_[v].begin(), joined_to_[v].end(), end) != joined_to_[v].end();
     });
+  }
+
+  /// Up to which a vertex is on a curve.
+  double touching_distance(local_id v, local_id c, double size) const {
+    return std::max(options_.touching_share * size,
+                    topology().curves[c].tolerance + topology().vertices[v].tolerance);
   }
 
   static vec3 foot_on(const chord& line, vec3 p) {
