@@ -291,7 +291,7 @@ std::optional<automatic_points> given_sizes::points(const any_geometry& model, b
   options.range.largest = length(model.bounds()).value_or(0);
   if (!size_) { // a default is for any file: details far smaller than the model are not followed
     options.range.smallest = diagonal / 250;
-    options.least_in_walls = in_thin_walls ? diagonal / 5000 : 0;
+    options.least_in_walls = in_thin_walls ? diagonal / most_sizes_across : 0;
   }
   return automatic_points(model, options, divided_loop{run});
 }

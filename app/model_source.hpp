@@ -49,6 +49,9 @@ private:
   std::optional<automatic_options> automatic_; ///< its largest size is `size_`
 };
 
+/// No automatic size is smaller than the model's diagonal over this, in thin walls and at details.
+inline constexpr double most_sizes_across = 5000;
+
 struct model_source {
   std::string name; ///< for the summary
   any_geometry geometry;

@@ -42,10 +42,9 @@ void suppression::apply(model_source& source) {
 void suppression::fit_sizes(model_source& source) const {
   if (!options_.has_automatic_sizes() || options_.proximity == 0.0)
     return;
-  constexpr double least_share_of_model = 1.0 / 5000; // as in thin walls
   constexpr double most_by_default = 2e5, most_of_wanted = 0.2;
   kept_detail_options allowed;
-  allowed.least_size = least_share_of_model * source.geometry.bounds().diagonal();
+  allowed.least_size = source.geometry.bounds().diagonal() / most_sizes_across;
   allowed.growth = options_.growth.value_or(allowed.growth);
   allowed.most_elements = options_.elements ? most_of_wanted * *options_.elements : most_by_default;
   source.size = finer_at_details(source.geometry, given_size_, allowed);

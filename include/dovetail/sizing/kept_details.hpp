@@ -33,8 +33,10 @@ struct kept_detail_options {
 namespace sizing {
 
 /// About how many tetrahedra a size that grows from a place on a surface makes more than the one that it
-/// grows to: the integral of the inverse cube over half a ball. \param from the size at the place \param to
-/// the size that it grows to; larger \param growth of the size per length
+/// grows to: the integral of the inverse cube over half a ball.
+/// \param from the size at the place
+/// \param to the size that it grows to; larger
+/// \param growth of the size per length
 inline double elements_of_growth(double from, double to, double growth) {
   constexpr double per_cube = 6 * std::numbers::sqrt2; // of regular tetrahedra
   const double share = from / to, reached = 1 - share;
@@ -254,11 +256,12 @@ private:
 /// A field that at each detail of a model is as small as that, grows from there, and is the one given
 /// elsewhere. Details are edges far shorter than the size, and vertices of a face far nearer, across the
 /// face, to another curve of it: triangles there would have an angle of about the ratio of both. Where there
-/// are no details, or fitting them needs more elements than allowed, the result is the field given. Throws
-/// `sizing_error` for options out of range, and for sizes that are not positive and finite. About n log n in
-/// the curves of each face and their lengths in sizes. \param model all of whose details are to be kept; with
-/// a `virtual_model` those that it leaves \param size the field, asked at the middle of each curve and at
-/// vertices \param options what is a detail
+/// are no details, or fitting them needs more elements than allowed, the result is the field given.
+/// Throws `sizing_error` for options out of range, and for sizes that are not positive and finite.
+/// About n log n in the curves of each face and their lengths in sizes.
+/// \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
+/// \param size the field, asked at the middle of each curve and at vertices
+/// \param options what is a detail
 template <geometry_model G>
 any_sizing finer_at_details(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
   sizing::checked_length(options.share_of_size, "the share of the size that details have");
