@@ -26,7 +26,8 @@ interface_angles fine_interface_angles(const realized<2>& skeleton, const simpli
                                        const divided_background<2>& divided, const any_sizing&,
                                        const wanted_angles& wanted);
 
-/// For each small angle of a realized decomposition that is not forced: the coarse sides that it is of.
+/// The coarse sides of small angles of a realized decomposition that are not forced, each set of sides once
+/// however many edges of the lines have a small angle there.
 std::vector<std::vector<local_id>> places_of_small_angles(const realized<3>& skeleton,
                                                           const interface_angles& angles);
 /// None that interfaces could keep clear of.

@@ -86,7 +86,9 @@ DOVETAIL_INLINE std::vector<std::vector<local_id>> places_of_small_angles(const 
                 std::upper_bound(first.begin(), first.end(), triangle) - first.begin() - 1 - regions;
             face >= 0)
           places.back().push_back(skeleton.coarse.faces[face].side);
+      sort_unique(places.back());
     }
+  sort_unique(places); // along a line each of its edges has one
   return places;
 }
 

@@ -7,6 +7,7 @@
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/realize.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -36,7 +37,8 @@ public:
     auto places = small_angles(made);
     const stopwatch cost;
     auto best = std::pair(places.size(), subdomain_of_element);
-    while (are_wanted_ && !places.empty() && places.size() <= most_places && rounds_ < most_rounds) {
+    while (are_wanted_ && !places.empty() && places.size() <= most_places(made.counts) &&
+           rounds_ < most_rounds) {
       const auto before = subdomain_of_element;
       const stopwatch clock;
       const std::size_t moved = repartition_.avoid(places, subdomain_of_element, subdomains);
@@ -71,9 +73,15 @@ public:
 private:
   /// Each takes the time of what it changes, and mostly two are enough.
   static constexpr int most_rounds = 8;
-  /// With more small angles the decomposition is poor as a whole: this would take longer than all
-  /// the rest.
-  static constexpr std::size_t most_places = 32;
+  /// With more small angles per interface face the decomposition is poor as a whole: this would take longer
+  /// than all the rest.
+  static constexpr double most_per_face = 0.01;
+  static constexpr std::size_t least_of_most = 32; ///< and at least so many are tried
+
+  static std::size_t most_places(const skeleton_counts& counts) {
+    return std::max(least_of_most,
+                    static_cast<std::size_t>(most_per_face * static_cast<double>(counts.interface_faces)));
+  }
 
   local_repartition<D> repartition_;
   bool are_wanted_;
