@@ -88,7 +88,7 @@ public:
 private:
   model_source load() {
     show("geometry");
-    suppression details(options_.model);
+    suppression details(options_.model, D);
     model_source source = load_model(options_.model, D, policies_.front().executor);
     resolve_walls(source, options_.model, policies_.front(), parameters_);
     scale_to_elements(source, options_.model, policies_.front(), parameters_);

@@ -156,7 +156,7 @@ public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit mesh_run(const mesh_options& options)
       : options_(options), policies_(make_policies_of<D>(options)),
-        parameters_(make_generate_options(options)), suppression_(options_.model),
+        parameters_(make_generate_options(options)), suppression_(options_.model, D),
         formats_(make_formats<D>(options)) {
     if (!options_.trace.empty()) {
       trace_.emplace(policies_.executor);

@@ -40,7 +40,7 @@ template <int D>
 int plan_run(const plan_options& options) {
   const policies_of<D> policies = make_policies_of<D>(options.mesh);
   generate_options parameters = make_generate_options(options.mesh);
-  suppression details(options.mesh.model);
+  suppression details(options.mesh.model, D);
   terminal_progress lines(stderr);
   lines.update("geometry", 0, 0);
   model_source source = load_model(options.mesh.model, D, policies.executor);

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/models/virtual_model.hpp"
+#include "dovetail/sizing/compose.hpp"
 #include "dovetail/sizing/kept_details.hpp"
 #include "dovetail/sizing/uniform.hpp"
 
@@ -16,15 +17,34 @@ namespace dovetail::app {
 
 namespace {
 
+void drop_part(model_source& source, const std::string& name) {
+  std::erase_if(source.summary.children, [&](const report& part) { return part.name == name; });
+}
+
 /// What is said of details of the source.
 void forget(model_source& source) {
-  std::erase_if(source.summary.children, [](const report& part) { return part.name == "virtual topology"; });
+  drop_part(source, "virtual topology");
   source.suppressed.clear();
+}
+
+report account_of(const detail_fit& fit, double most_elements) {
+  report account;
+  account.name = "kept details";
+  account.set(fit);
+  if (fit.left > 0)
+    account.warnings.push_back(
+        "sizes fit " + std::to_string(fit.fitted) + " of " + std::to_string(fit.fitted + fit.left) +
+        " details that are far smaller than the size; elements at the others are flat: to fit all takes "
+        "about " +
+        number_text(fit.elements_of_all, 3) + " elements more, " + number_text(most_elements, 3) +
+        " are allowed; give more --elements, or --suppress a length");
+  return account;
 }
 
 } // namespace
 
-suppression::suppression(const model_options& options) : options_(options) {
+suppression::suppression(const model_options& options, int dimension)
+    : options_(options), dimension_(dimension) {
   if (options.suppress && (!(*options.suppress > 0) || !std::isfinite(*options.suppress)))
     throw command_line_error("--suppress: " + number_text(*options.suppress) +
                              " is not a length; give a positive number, or --keep-all");
@@ -47,7 +67,18 @@ void suppression::fit_sizes(model_source& source) const {
   allowed.least_size = source.geometry.bounds().diagonal() / most_sizes_across;
   allowed.growth = options_.growth.value_or(allowed.growth);
   allowed.most_elements = options_.elements ? most_of_wanted * *options_.elements : most_by_default;
-  source.size = finer_at_details(source.geometry, given_size_, allowed);
+  allowed.dimension = dimension_;
+  detail_fit fit = finer_at_details(source.geometry, given_size_, allowed);
+  if (options_.elements && fit.elements > 0) {
+    const double all = *options_.elements, others = all - fit.elements;
+    fit = finer_at_details(
+        source.geometry,
+        keep_bounds(scaled<any_sizing>(given_size_, std::pow(all / others, 1.0 / dimension_))), allowed);
+  }
+  source.size = fit.size;
+  drop_part(source, "kept details");
+  if (fit.fitted + fit.left > 0)
+    source.summary.children.push_back(account_of(fit, allowed.most_elements));
 }
 
 void suppression::simplify(model_source& source) {

@@ -17,11 +17,11 @@ namespace dovetail::app {
 class suppression {
 public:
   /// What the options say is a detail. Throws `command_line_error` for a length that is none.
-  explicit suppression(const model_options& options);
+  suppression(const model_options& options, int dimension);
 
   /// Takes the details away that are such at the final sizes of the source, but for those in thin walls,
   /// where a size is small at one place of many a detail; notes that in its summary. Automatic sizes are made
-  /// to fit the details that are left.
+  /// to fit the details that are left, and larger elsewhere by as much as keeps a wanted number of elements.
   void apply(model_source& source);
 
   /// Calls what meshes the source's geometry; when that blames faces, with these as they were drawn, and so
@@ -46,6 +46,7 @@ private:
   void fit_sizes(model_source& source) const;
 
   const model_options& options_;
+  int dimension_;                        ///< of the elements
   std::optional<any_geometry> as_drawn_; ///< when something was taken away
   any_sizing given_size_;                ///< before it was made to fit
   std::vector<local_id> kept_;

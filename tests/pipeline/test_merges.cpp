@@ -432,6 +432,35 @@ TEST_CASE("Interfaces move away from small angles, but not to where something cr
   CHECK(given.rounds(0.05).realize_boundaries()->subdomain_of_element == stays.subdomain_of_element);
 }
 
+TEST_CASE("A place is one, however many edges of its lines have a small angle") {
+  decomposed_shell given(0.5, 16);
+  given.background.size = uniform_size(0.05);
+  given.want(50);
+  given.given.options.repartition_locally = false;
+  auto rounds = given.rounds(0.05);
+  const auto made = rounds.realize_boundaries().value();
+  const interface_angles angles = rounds.take_fine_angles();
+  const auto places = detail::places_of_small_angles(made, angles);
+  const auto& first = made.patches.first_triangle;
+  std::set<std::vector<local_id>> expected;
+  std::size_t unforced = 0;
+  for (const angle_violation& v : angles.violations) {
+    if (v.cause == violation_cause::forced)
+      continue;
+    ++unforced;
+    std::set<local_id> sides;
+    for (std::size_t f = 0; f < made.coarse.faces.size(); ++f)
+      for (const local_id triangle : v.sides) {
+        const std::size_t patch = made.coarse.regions.size() + f;
+        if (first[patch] <= triangle && triangle < first[patch + 1])
+          sides.insert(made.coarse.faces[f].side);
+      }
+    expected.insert({sides.begin(), sides.end()});
+  }
+  CHECK(std::vector(expected.begin(), expected.end()) == places);
+  CHECK(3 * places.size() < unforced);
+}
+
 TEST_CASE("A decomposition that is given up leaves its account, and no pieces") {
   const testing::scratch_folder scratch("given_up");
   decomposed_shell given(0.5, 6);

@@ -34,6 +34,10 @@ public:
   realized<D> avoid_small_angles(realized<D> made, std::vector<local_id>& subdomain_of_element,
                                  local_id subdomains, const Realize& realize, const Crosses& crosses,
                                  const SmallAngles& small_angles, double& seconds) {
+    const auto realize_again = [&] {
+      made = {}; // before the next one, which is as large
+      made = realize();
+    };
     auto places = small_angles(made);
     const stopwatch cost;
     auto best = std::pair(places.size(), subdomain_of_element);
@@ -46,10 +50,10 @@ public:
       if (moved == 0)
         break;
       ++rounds_;
-      made = realize();
+      realize_again();
       if (crosses(made)) { // the same places would only ask for the same moves again
         subdomain_of_element = before;
-        made = realize();
+        realize_again();
         break;
       }
       moved_ += moved;
@@ -59,7 +63,7 @@ public:
     }
     if (places.size() > best.first) {
       subdomain_of_element = std::move(best.second);
-      made = realize();
+      realize_again();
       small_angles(made);
     }
     seconds_ += rounds_ > 0 ? cost.seconds() : 0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/concepts.hpp"
@@ -27,25 +28,39 @@ struct kept_detail_options {
   double touching_share = 0.001; ///< vertices nearer to a curve than this share of the size are on it
   double least_size = 0;         ///< no size becomes smaller, nor than `touching_share` of what it was
   double growth = 0.4;           ///< of the size per length away from details
-  double most_elements = 2e5;    ///< where fitting all of them needs more, about, none is fitted
+  double most_elements = 2e5;    ///< details that need more, about, stay as they are, the costly ones first
+  int dimension = 3;             ///< of the elements
 };
 
 namespace sizing {
 
-/// About how many tetrahedra a size that grows from a place on a surface makes more than the one that it
-/// grows to: the integral of the inverse cube over half a ball.
+/// About how many elements a size that grows from a place on a surface makes more than the one that it grows
+/// to: the integral of the inverse cube over half a ball, or of the inverse square over a disk.
 /// \param from the size at the place
 /// \param to the size that it grows to; larger
 /// \param growth of the size per length
-inline double elements_of_growth(double from, double to, double growth) {
-  constexpr double per_cube = 6 * std::numbers::sqrt2; // of regular tetrahedra
+/// \param dimension of the elements, 3 or 2
+inline double elements_of_growth(double from, double to, double growth, int dimension = 3) {
   const double share = from / to, reached = 1 - share;
+  if (dimension == 2) {
+    constexpr double per_square = 4 / std::numbers::sqrt3; // of regular triangles
+    const double inside = -std::log(share) - reached, before = reached * reached / 2;
+    return per_square * 2 * std::numbers::pi * (inside - before) / (growth * growth);
+  }
+  constexpr double per_cube = 6 * std::numbers::sqrt2; // of regular tetrahedra
   const double inside = -std::log(share) + 2 * share - 0.5 * share * share - 1.5;
   const double before = reached * reached * reached / 3;
   return per_cube * 2 * std::numbers::pi * (inside - before) / std::pow(growth, 3);
 }
 
-/// The details of a model that are small for a size, as places where that should be smaller.
+/// A detail that sizes are to fit.
+struct kept_detail {
+  double size;              ///< how small they should be
+  std::vector<vec3> places; ///< where
+  double elements;          ///< about how many elements fitting it adds
+};
+
+/// The details of a model that are small for a size.
 template <geometry_model G>
 class kept_details {
 public:
@@ -62,10 +77,8 @@ public:
       find_narrow_places(static_cast<local_id>(f));
   }
 
-  /// Where sizes should be so small.
-  const std::vector<sized_point>& points() const { return points_; }
-  std::size_t count() const { return count_; }  ///< how many details there are
-  double elements() const { return elements_; } ///< about how many tetrahedra fitting them adds
+  /// All of them.
+  const std::vector<kept_detail>& list() const { return details_; }
 
 private:
   /// A part of a curve as a straight line.
@@ -235,10 +248,8 @@ private:
     const double fitted = std::max({length, options_.least_size, options_.touching_share * size});
     if (!(fitted < size))
       return;
-    for (const vec3 p : places)
-      points_.push_back({p, fitted});
-    ++count_;
-    elements_ += elements_of_growth(fitted, size, options_.growth);
+    details_.push_back(
+        {fitted, places, elements_of_growth(fitted, size, options_.growth, options_.dimension)});
   }
 
   const G& model_;
@@ -246,24 +257,34 @@ private:
   const kept_detail_options& options_;
   std::vector<std::vector<chord>> chords_of_;    ///< by curve; none of degenerate ones
   std::vector<std::vector<local_id>> joined_to_; ///< by vertex: those at the other ends of short edges
-  std::vector<sized_point> points_;
-  std::size_t count_ = 0;
-  double elements_ = 0;
+  std::vector<kept_detail> details_;
 };
 
 } // namespace sizing
 
+/// A field that fits details of a model, and how many of them.
+struct detail_fit {
+  any_sizing size;            ///< the field
+  std::size_t fitted = 0;     ///< details that it fits
+  std::size_t left = 0;       ///< details that would have needed too many elements
+  double elements = 0;        ///< about how many elements those fitted add
+  double elements_of_all = 0; ///< about how many all would
+
+  using fields =
+      field_list<&detail_fit::fitted, &detail_fit::left, &detail_fit::elements, &detail_fit::elements_of_all>;
+};
+
 /// A field that at each detail of a model is as small as that, grows from there, and is the one given
 /// elsewhere. Details are edges far shorter than the size, and vertices of a face far nearer, across the
 /// face, to another curve of it: triangles there would have an angle of about the ratio of both. Where there
-/// are no details, or fitting them needs more elements than allowed, the result is the field given.
+/// are none, or none within the elements allowed, the result is the field given.
 /// Throws `sizing_error` for options out of range, and for sizes that are not positive and finite.
 /// About n log n in the curves of each face and their lengths in sizes.
 /// \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
 /// \param size the field, asked at the middle of each curve and at vertices
 /// \param options what is a detail
 template <geometry_model G>
-any_sizing finer_at_details(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
+detail_fit finer_at_details(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
   sizing::checked_length(options.share_of_size, "the share of the size that details have");
   sizing::checked_length(options.touching_share, "the share of the size by which vertices are off curves");
   sizing::checked_length(options.least_size, "the least size at details");
@@ -271,10 +292,26 @@ any_sizing finer_at_details(const G& model, const any_sizing& size, const kept_d
   if (options.share_of_size > 1)
     throw sizing_error("details are smaller than the size; give a share of at most 1");
   const sizing::kept_details<G> found(model, size, options);
-  if (found.points().empty() || !(found.elements() <= options.most_elements))
-    return size;
-  const point_sizes around(found.points(), options.growth, std::numeric_limits<double>::max());
-  return keep_bounds(minimum_of(erased_sizing(size), around));
+  std::vector<sizing::kept_detail> details = found.list();
+  std::stable_sort(details.begin(), details.end(),
+                   [](const auto& a, const auto& b) { return a.elements < b.elements; });
+  detail_fit fit{size};
+  std::vector<sized_point> points;
+  for (const sizing::kept_detail& detail : details) {
+    fit.elements_of_all += detail.elements;
+    if (!(fit.elements_of_all <= options.most_elements)) {
+      ++fit.left;
+      continue;
+    }
+    ++fit.fitted;
+    fit.elements = fit.elements_of_all;
+    for (const vec3 p : detail.places)
+      points.push_back({p, detail.size});
+  }
+  if (!points.empty())
+    fit.size = keep_bounds(minimum_of(
+        erased_sizing(size), point_sizes(points, options.growth, std::numeric_limits<double>::max())));
+  return fit;
 }
 
 } // namespace dovetail
