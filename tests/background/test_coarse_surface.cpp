@@ -1,5 +1,6 @@
 #include "analytic_models.hpp"
 #include "dovetail/background/coarse_surface.hpp"
+#include "dovetail/background/surface_faces.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/remesh/patch_remesher.hpp"
@@ -64,6 +65,44 @@ TEST_CASE("curvature bounds the edges of a ball whatever the size") {
   for (const auto& t : result.surface.mesh.elements)
     for (std::size_t i = 0; i < 3; ++i)
       CHECK(distance(result.surface.mesh.points[t[i]], result.surface.mesh.points[t[(i + 1) % 3]]) < 1.6);
+}
+
+TEST_CASE("a pole that is straight but for rounding gets no points beside it") {
+  struct rough_ball : ball {
+    vec2 curve_uv(local_id f, int k, double t) const {
+      vec2 uv = ball::curve_uv(f, k, t);
+      if ((k == 0 || k == 2) && t > 0 && t < 2 * pi)
+        uv.y *= 1 + 1e-15;
+      return uv;
+    }
+  };
+  const rough_ball model;
+  for (const double size : {0.5, 0.2, 0.1, 0.05}) {
+    const auto result = mesh(model, size);
+    check_surface(model, result.surface);
+    for (const auto& t : result.surface.mesh.elements)
+      for (std::size_t i = 0; i < 3; ++i)
+        CHECK(distance(result.surface.mesh.points[t[i]], result.surface.mesh.points[t[(i + 1) % 3]]) >
+              0.1 * size);
+  }
+}
+
+TEST_CASE("the points of a pole are put on a line only where they are on one but for rounding") {
+  const vec2 extent{6, 3};
+  std::vector<vec2> pole{{6, 1.5}, {4, 1.5 + 1e-15}, {2, 1.5 - 1e-15}};
+  vec2 last{0, 1.5 + 1e-15};
+  background::detail::straighten_pole(pole, last, extent);
+  CHECK(pole == std::vector<vec2>{{6, 1.5}, {4, 1.5}, {2, 1.5}});
+  CHECK(last == vec2{0, 1.5});
+  const std::vector<vec2> bent{{6, 1.5}, {4, 1.6}, {2, 1.5}};
+  pole = bent;
+  background::detail::straighten_pole(pole, last, extent);
+  CHECK(pole == bent);
+  std::vector<vec2> upright{{1, 0}, {1 - 1e-15, 2}};
+  vec2 top{1 + 1e-15, 3};
+  background::detail::straighten_pole(upright, top, extent);
+  CHECK(upright == std::vector<vec2>{{1, 0}, {1, 2}});
+  CHECK(top == vec2{1, 3});
 }
 
 TEST_CASE("a thin disc stays a surface: two faces never share an edge that is on no curve") {

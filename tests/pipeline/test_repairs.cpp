@@ -72,6 +72,24 @@ TEST_CASE("CAD faces that cross get smaller triangles, as long as there are roun
                        doctest::Contains("the surfaces of face 0 and face 1 cross"), intersection_error);
 }
 
+TEST_CASE("Where smaller triangles multiply what crosses there is no further round") {
+  const auto crossing_so_often = [](std::size_t times) {
+    suppression_plan plan = crossing_faces();
+    plan.surface_crossings.resize(times, plan.surface_crossings.front());
+    return plan;
+  };
+  for (const bool is_folded : {false, true}) {
+    auto state = eight_subdomains();
+    state.refinements = 1;
+    apply(*repair_of(crossing_so_often(5), state), state);
+    auto more = crossing_so_often(35), many = crossing_so_often(36);
+    if (is_folded)
+      more.folds = many.folds = "a region is folded over";
+    CHECK(repair_of(more, state)->too_many_merges == more.folds);
+    CHECK_THROWS_AS(repair_of(many, state), intersection_error);
+  }
+}
+
 TEST_CASE("A face that stays folded over asks for fewer subdomains, where there can be fewer") {
   auto plan = crossing_faces();
   plan.folds = "a region is folded over";

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace dovetail::background {
@@ -63,6 +65,24 @@ inline vec2 parameter_extent(const any_geometry& model, local_id f) {
   return upper - lower;
 }
 
+/// Puts the points of a pole, of which the last one begins the next coedge, on one straight line of the
+/// parameter plane, as they are but for rounding: in the sliver beside it a mesher would find room for
+/// points, all at the pole.
+inline void straighten_pole(std::span<vec2> pole, vec2& last, vec2 extent) {
+  constexpr double rounding = 1e-9; // of the face's extent
+  for (double vec2::*coordinate : {&vec2::x, &vec2::y}) {
+    const double first = pole[0].*coordinate;
+    const auto is_first = [&](vec2 uv) {
+      return std::abs(uv.*coordinate - first) <= rounding * extent.*coordinate;
+    };
+    if (!is_first(last) || !std::all_of(pole.begin(), pole.end(), is_first))
+      continue;
+    for (vec2& uv : pole)
+      uv.*coordinate = first;
+    last.*coordinate = first;
+  }
+}
+
 } // namespace detail
 
 /// Assembles the loops of a face from its curves' points.
@@ -74,13 +94,20 @@ inline face_patch make_face_patch(const any_geometry& model, local_id f, const c
   int k = 0;
   for (const auto& loop : topology.faces[f].loops) {
     const auto first = static_cast<local_id>(b.uv.size());
+    std::vector<std::array<local_id, 2>> poles; // their points but the last
     for (const auto& coedge : loop) {
       const auto& curve = topology.curves[coedge.curve];
+      const auto begin = static_cast<local_id>(b.uv.size());
       if (!detail::is_point_in_plane(model, f, k, curve, extent))
         detail::append_coedge(model, f, k, coedge, curves, made);
+      if (const auto next = static_cast<local_id>(b.uv.size()); curve.degenerate && next > begin)
+        poles.push_back({begin, next});
       ++k;
     }
     const auto end = static_cast<local_id>(b.uv.size());
+    for (const auto& [begin, next] : poles)
+      detail::straighten_pole(std::span(b.uv).subspan(begin, next - begin), b.uv[next < end ? next : first],
+                              extent);
     for (local_id i = first; i < end; ++i)
       b.segments.push_back({i, i + 1 < end ? i + 1 : first});
   }

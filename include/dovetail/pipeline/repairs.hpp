@@ -26,6 +26,7 @@ struct decomposition_state {
   merge_account merges;                       ///< which subdomains were merged, and why
   refined_sizing size;                        ///< the field given, smaller where something crossed
   int refinements = 0;                        ///< repairs by smaller sizes so far
+  std::size_t surface_crossings = 0;          ///< that the last of them was for
   local_id merged_after_failure = 0;          ///< subdomains merged since a piece could not be meshed
   std::vector<std::string> warnings = {};     ///< what the report is to tell
 };
@@ -33,6 +34,7 @@ struct decomposition_state {
 /// One repair: smaller sizes, merges, or the insight that only fewer subdomains would do.
 struct repair {
   std::vector<size_ball> smaller_sizes = {};        ///< balls in which sizes get smaller
+  std::size_t surface_crossings = 0;                ///< of CAD faces, that these are for
   std::vector<std::array<local_id, 2>> merges = {}; ///< pairs of subdomains that become one
   std::string too_many_merges = {};                 ///< why fewer subdomains have to be made
   bool is_after_failure = false;                    ///< the merges are of pieces that no attempt could mesh

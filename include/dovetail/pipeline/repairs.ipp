@@ -19,6 +19,7 @@ namespace dovetail {
 DOVETAIL_INLINE void apply(const repair& wanted, decomposition_state& state) {
   if (!wanted.smaller_sizes.empty()) {
     state.size.refine(wanted.smaller_sizes);
+    state.surface_crossings = wanted.surface_crossings;
     ++state.refinements;
   }
   if (!wanted.merges.empty()) {
@@ -36,17 +37,24 @@ inline int rounds_before_others(int refinement_rounds) {
   return std::min(refinement_rounds, 2);
 }
 
+/// Smaller triangles multiply what crosses: then a surface is folded over, and not its mesh.
+inline bool gets_worse(const suppression_plan& plan, const decomposition_state& state) {
+  return state.surface_crossings > 0 && plan.surface_crossings.size() > 3 * state.surface_crossings + 20;
+}
+
 /// Two CAD faces that cross, or one that is folded over: smaller triangles there. Throws
-/// `intersection_error` that names the faces when no round is left.
+/// `intersection_error` that names the faces when no round is left, or they make it worse.
 inline repair repair_of_surfaces(const suppression_plan& plan, const decomposition_state& state,
                                  const geometry_topology& topology, int refinement_rounds) {
   const auto least_subdomains = std::max<std::size_t>(1, topology.solids.size());
   const bool can_be_fewer = static_cast<std::size_t>(state.merges.subdomains()) > least_subdomains;
-  if (!plan.folds.empty() && can_be_fewer && state.refinements >= rounds_before_others(refinement_rounds))
+  if (!plan.folds.empty() && can_be_fewer && !gets_worse(plan, state) &&
+      state.refinements >= rounds_before_others(refinement_rounds))
     return {.too_many_merges = plan.folds}; // whole faces may not fold
-  if (state.refinements >= refinement_rounds)
+  if (state.refinements >= refinement_rounds || gets_worse(plan, state))
     throw_crossing_faces(topology, plan.surface_crossings.front().cad_faces);
-  return {.smaller_sizes = balls_around(plan.surface_crossings)};
+  return {.smaller_sizes = balls_around(plan.surface_crossings),
+          .surface_crossings = plan.surface_crossings.size()};
 }
 
 /// Interfaces that cross something: the two subdomains are merged. Where that is too many, or lines are at
