@@ -17,14 +17,18 @@
 #include <BRepPrimAPI_MakeWedge.hxx>
 #include <BRep_Builder.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
 #include <gp_Pln.hxx>
+#include <gp_Trsf.hxx>
+#include <gp_Vec.hxx>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 using namespace dovetail;
 using std::numbers::pi;
@@ -44,6 +48,12 @@ void check_solid(const TopoDS_Shape& shape, double volume, double area) {
   CHECK(testing::open_edges(model.topology(), surface) == 0);
   CHECK(testing::enclosed_volumes(model.topology(), surface).front() ==
         doctest::Approx(volume).epsilon(0.02));
+}
+
+TopLoc_Location away() {
+  gp_Trsf move;
+  move.SetTranslation(gp_Vec(9, 0, 0));
+  return {move};
 }
 
 } // namespace
@@ -129,6 +139,26 @@ TEST_CASE("solids that overlap are divided, with a warning") {
   CHECK(result.model.topology().solids.size() == 3);
   REQUIRE(result.report.warnings.size() == 1);
   CHECK(result.report.warnings[0].find("overlap") != std::string::npos);
+}
+
+TEST_CASE("of solids with the same faces one is left, with a warning") {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
+  const BRep_Builder builder;
+  TopoDS_Solid again;
+  builder.MakeSolid(again);
+  builder.Add(again, TopExp_Explorer(box, TopAbs_SHELL).Current());
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape& part :
+       {box, TopoDS_Shape(again), BRepPrimAPI_MakeSphere(0.5).Shape().Moved(away())})
+    builder.Add(all, part);
+  const occt_read_result result = occt_shape_from(all);
+  CHECK(result.model.topology().solids.size() == 2);
+  CHECK(result.model.topology().faces.size() == 7);
+  REQUIRE(result.report.warnings.size() == 1);
+  CHECK(result.report.warnings[0] == "1 solid has the faces of another one, and is left out");
+  const std::vector<double> volumes = occt_solid_volumes(result.model);
+  CHECK(volumes[0] + volumes[1] == doctest::Approx(6 + pi / 6));
 }
 
 TEST_CASE("loose faces that enclose a volume are sewn to a solid") {

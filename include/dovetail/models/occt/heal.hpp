@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/models/occt/imprint.hpp"
 #include "dovetail/models/occt/open_shells.hpp"
 #include "dovetail/models/occt/options.hpp"
@@ -11,7 +12,9 @@
 #include "dovetail/models/occt/topology.hpp"
 
 #include <BRepClass3d_SolidClassifier.hxx>
+#include <ShapeBuild_ReShape.hxx>
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +44,30 @@ inline void keep_oriented_solids(attributed_shape& input, wanted what) {
        faces.Next())
     builder.Add(all, faces.Current());
   input.shape = all;
+}
+
+/// Leaves out solids that have the faces of another one, such as a part that is in an assembly twice.
+inline void drop_repeated_solids(attributed_shape& input, report& made) {
+  const TopTools_IndexedMapOfShape faces = sub_shapes(input.shape, TopAbs_FACE);
+  const TopTools_IndexedMapOfShape solids = sub_shapes(input.shape, TopAbs_SOLID);
+  const Handle(ShapeBuild_ReShape) context = new ShapeBuild_ReShape;
+  std::set<std::vector<int>> seen;
+  int repeated = 0;
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    std::vector<int> own;
+    for (TopExp_Explorer each(solids(i), TopAbs_FACE); each.More(); each.Next())
+      own.push_back(faces.FindIndex(each.Current()));
+    sort_all(own);
+    if (seen.insert(std::move(own)).second)
+      continue;
+    context->Remove(solids(i));
+    ++repeated;
+  }
+  if (repeated == 0)
+    return;
+  input.shape = context->Apply(input.shape);
+  made.warnings.push_back(std::to_string(repeated) + (repeated == 1 ? " solid has" : " solids have") +
+                          " the faces of another one, and " + (repeated == 1 ? "is" : "are") + " left out");
 }
 
 /// A shape without a solid: its faces are sewn, at growing tolerance, until shells close. Throws
@@ -152,6 +179,7 @@ inline brep healed_brep(attributed_shape input, report& made, wanted what = want
   } else {
     make_solids_or_shells(input, made);
   }
+  drop_repeated_solids(input, made);
   turn_spheres(input, made);
   keep_oriented_solids(input, what);
 
