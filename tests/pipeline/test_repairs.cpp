@@ -50,7 +50,7 @@ std::optional<repair> repair_of(const suppression_plan& plan, const decompositio
 
 TEST_CASE("Where nothing crosses there is nothing to repair") {
   CHECK(!repair_of({}, eight_subdomains()));
-  CHECK(!refine_faults({}));
+  CHECK(!refine_faults({}, eight_subdomains()));
   CHECK(!merge_failures<3>({}, {}, eight_subdomains()));
 }
 
@@ -87,6 +87,8 @@ TEST_CASE("Where smaller triangles multiply what crosses there is no further rou
       more.folds = many.folds = "a region is folded over";
     CHECK(repair_of(more, state)->too_many_merges == more.folds);
     CHECK_THROWS_AS(repair_of(many, state), intersection_error);
+    CHECK(refine_faults(more.surface_crossings, state));
+    CHECK(!refine_faults(many.surface_crossings, state));
   }
 }
 

@@ -53,11 +53,19 @@ void apply(const repair& wanted, decomposition_state& state);
 std::optional<repair> repair_of_crossings(const suppression_plan& plan, const decomposition_state& state,
                                           const geometry_topology& topology, int refinement_rounds);
 
-/// Smaller sizes at the faults of surfaces by which pieces have failed, as long as there are rounds.
-inline std::optional<repair> refine_faults(const std::vector<surface_crossing>& faults) {
-  if (faults.empty())
+/// Whether smaller triangles have multiplied what crosses or is folded over: then a surface is so, and not
+/// its mesh.
+inline bool gets_worse(std::size_t surface_crossings, const decomposition_state& state) {
+  return state.surface_crossings > 0 && surface_crossings > 3 * state.surface_crossings + 20;
+}
+
+/// Smaller sizes at the faults of surfaces by which pieces have failed, as long as there are rounds and these
+/// do not make it worse.
+inline std::optional<repair> refine_faults(const std::vector<surface_crossing>& faults,
+                                           const decomposition_state& state) {
+  if (faults.empty() || gets_worse(faults.size(), state))
     return {};
-  return repair{.smaller_sizes = balls_around(one_of_each_place(faults))};
+  return repair{.smaller_sizes = balls_around(one_of_each_place(faults)), .surface_crossings = faults.size()};
 }
 
 /// Merges of what no attempt could mesh, each with a neighbour; only a warning where that would be too many.

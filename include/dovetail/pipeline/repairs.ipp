@@ -37,21 +37,17 @@ inline int rounds_before_others(int refinement_rounds) {
   return std::min(refinement_rounds, 2);
 }
 
-/// Smaller triangles multiply what crosses: then a surface is folded over, and not its mesh.
-inline bool gets_worse(const suppression_plan& plan, const decomposition_state& state) {
-  return state.surface_crossings > 0 && plan.surface_crossings.size() > 3 * state.surface_crossings + 20;
-}
-
 /// Two CAD faces that cross, or one that is folded over: smaller triangles there. Throws
 /// `intersection_error` that names the faces when no round is left, or they make it worse.
 inline repair repair_of_surfaces(const suppression_plan& plan, const decomposition_state& state,
                                  const geometry_topology& topology, int refinement_rounds) {
   const auto least_subdomains = std::max<std::size_t>(1, topology.solids.size());
+  const bool is_worse = gets_worse(plan.surface_crossings.size(), state);
   const bool can_be_fewer = static_cast<std::size_t>(state.merges.subdomains()) > least_subdomains;
-  if (!plan.folds.empty() && can_be_fewer && !gets_worse(plan, state) &&
+  if (!plan.folds.empty() && can_be_fewer && !is_worse &&
       state.refinements >= rounds_before_others(refinement_rounds))
     return {.too_many_merges = plan.folds}; // whole faces may not fold
-  if (state.refinements >= refinement_rounds || gets_worse(plan, state))
+  if (state.refinements >= refinement_rounds || is_worse)
     throw_crossing_faces(topology, plan.surface_crossings.front().cad_faces);
   return {.smaller_sizes = balls_around(plan.surface_crossings),
           .surface_crossings = plan.surface_crossings.size()};

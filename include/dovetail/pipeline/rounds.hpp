@@ -100,7 +100,7 @@ public:
     while (auto made = realize_boundaries()) {
       auto meshed = mesh_all_pieces(model_, mesh_, *made, divided_.weights, state_.size, pieces_, given_);
       finished_.insert(meshed.keys.begin(), meshed.keys.end());
-      const auto refine = [&] { return refine_faults(faults_of(*made, meshed)); };
+      const auto refine = [&] { return refine_faults(faults_of(*made, meshed), state_); };
       const auto merge = [&] { return merge_failures<D>(made->fine, meshed.failures, state_); };
       const auto uncross = [&] {
         return crossings_of(plan_for_pieces(model_, *made, meshed, given_, counts_, account_.seconds));
