@@ -27,17 +27,19 @@ void forget(model_source& source) {
   source.suppressed.clear();
 }
 
-report account_of(const detail_fit& fit, double most_elements) {
+/// `most_of_wanted`: share of the elements asked for that details may need.
+report account_of(const detail_fit& fit, double most_elements, double most_of_wanted) {
   report account;
   account.name = "kept details";
   account.set(fit);
   if (fit.left > 0)
     account.warnings.push_back(
         "sizes fit " + std::to_string(fit.fitted) + " of " + std::to_string(fit.fitted + fit.left) +
-        " details that are far smaller than the size; elements at the others are flat: to fit all takes "
+        " details that are far smaller than the size, and elements at the others are flat: to fit all takes "
         "about " +
-        number_text(fit.elements_of_all, 3) + " elements more, " + number_text(most_elements, 3) +
-        " are allowed; give more --elements, or --suppress a length");
+        number_text(fit.elements_of_all, 3) + " elements more, and " + number_text(most_elements, 3) +
+        " are allowed; give --elements of at least " + number_text(fit.elements_of_all / most_of_wanted, 3) +
+        ", or leave details out by --suppress");
   return account;
 }
 
@@ -68,17 +70,19 @@ void suppression::fit_sizes(model_source& source) const {
   allowed.growth = options_.growth.value_or(allowed.growth);
   allowed.most_elements = options_.elements ? most_of_wanted * *options_.elements : most_by_default;
   allowed.dimension = dimension_;
-  detail_fit fit = finer_at_details(source.geometry, given_size_, allowed);
-  if (options_.elements && fit.elements > 0) {
-    const double all = *options_.elements, others = all - fit.elements;
-    fit = finer_at_details(
-        source.geometry,
-        keep_bounds(scaled<any_sizing>(given_size_, std::pow(all / others, 1.0 / dimension_))), allowed);
-  }
-  source.size = fit.size;
+  const detail_fit fit = details_to_fit(source.geometry, given_size_, allowed);
+  source.size = finer_at(size_beside(fit), fit.places, allowed.growth);
   drop_part(source, "kept details");
   if (fit.fitted + fit.left > 0)
-    source.summary.children.push_back(account_of(fit, allowed.most_elements));
+    source.summary.children.push_back(account_of(fit, allowed.most_elements, most_of_wanted));
+}
+
+any_sizing suppression::size_beside(const detail_fit& fit) const {
+  if (!options_.elements || fit.elements == 0)
+    return given_size_;
+  const double others = *options_.elements - fit.elements;
+  return keep_bounds(
+      scaled<any_sizing>(given_size_, std::pow(*options_.elements / others, 1.0 / dimension_)));
 }
 
 void suppression::simplify(model_source& source) {

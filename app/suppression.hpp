@@ -6,6 +6,7 @@
 #include "options.hpp"
 
 #include "dovetail/geometry/error_of_faces.hpp"
+#include "dovetail/sizing/kept_details.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -19,7 +20,7 @@ public:
   /// What the options say is a detail. Throws `command_line_error` for a length that is none.
   suppression(const model_options& options, int dimension);
 
-  /// Takes the details away that are such at the final sizes of the source, but for those in thin walls,
+  /// Takes the details away that are such at the sizes of the source, but for those in thin walls,
   /// where a size is small at one place of many a detail; notes that in its summary. Automatic sizes are made
   /// to fit the details that are left, and larger elsewhere by as much as keeps a wanted number of elements.
   void apply(model_source& source);
@@ -44,6 +45,8 @@ private:
   bool keep(model_source& source, const std::vector<local_id>& faces);
   void simplify(model_source& source);
   void fit_sizes(model_source& source) const;
+  /// Larger than given by so much as makes room for the elements at details.
+  any_sizing size_beside(const detail_fit& fit) const;
 
   const model_options& options_;
   int dimension_;                        ///< of the elements

@@ -156,7 +156,7 @@ TEST_CASE("of solids with the same faces one is left, with a warning") {
   CHECK(result.model.topology().solids.size() == 2);
   CHECK(result.model.topology().faces.size() == 7);
   REQUIRE(result.report.warnings.size() == 1);
-  CHECK(result.report.warnings[0] == "1 solid has the faces of another one, and is left out");
+  CHECK(result.report.warnings[0] == "solid 1 has the faces of solid 0 and is left out");
   const std::vector<double> volumes = occt_solid_volumes(result.model);
   CHECK(volumes[0] + volumes[1] == doctest::Approx(6 + pi / 6));
 }

@@ -308,7 +308,7 @@ TEST_CASE("sizes fit details that stay: a hole, and a vertex near to the edge of
     return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, 5, -1), gp_Dir(0, 0, 1)), radius, 5).Shape();
   };
   const any_geometry pierced = model_of(BRepAlgoAPI_Cut(box, cylinder(5, 0.03)).Shape());
-  const any_sizing at_hole = finer_at_details(pierced, given).size;
+  const any_sizing at_hole = finer_at_details(pierced, given);
   // A third of its circumference, around its vertex.
   CHECK(at_hole({5.03, 5, 0}) == doctest::Approx(2 * std::numbers::pi * 0.03 / 3).epsilon(0.05));
   CHECK(at_hole({1, 1, 0}) == 1);
@@ -318,7 +318,7 @@ TEST_CASE("sizes fit details that stay: a hole, and a vertex near to the edge of
   const TopoDS_Shape slot = BRepPrimAPI_MakeBox(gp_Pnt(6.1, 5, -1), gp_Pnt(6.2, 8, 5)).Shape();
   BRepAlgoAPI_Cut with_hole(box, cylinder(5, 1));
   const any_geometry beside = model_of(BRepAlgoAPI_Cut(with_hole.Shape(), slot).Shape());
-  const any_sizing fitted = finer_at_details(beside, given, {.share_of_size = 0.15}).size;
+  const any_sizing fitted = finer_at_details(beside, given, {.share_of_size = 0.15});
   for (const double z : {0.0, 3.0}) {
     CHECK(fitted({6.1, 5, z}) == doctest::Approx(0.1).epsilon(0.02));
     CHECK(fitted({6, 5, z}) == doctest::Approx(0.1).epsilon(0.02));

@@ -461,6 +461,35 @@ TEST_CASE("A place is one, however many edges of its lines have a small angle") 
   CHECK(3 * places.size() < unforced);
 }
 
+TEST_CASE("Interfaces move away from 32 places, or one per hundred faces, and not from more") {
+  decomposed_shell given(0.5, 16);
+  auto rounds = given.rounds(0.05);
+  const auto made = rounds.realize_boundaries().value();
+  const auto realized_for = [&](std::size_t count, std::size_t faces) {
+    repartition_rounds<3> repartition(given.background.mesh, given.divided, true);
+    realized<3> start = made;
+    start.counts.interface_faces = faces;
+    std::vector<std::vector<local_id>> places;
+    for (std::size_t f = 0; f < count; ++f)
+      places.push_back({made.coarse.faces[f].side});
+    auto subdomains = made.subdomain_of_element;
+    int times = 0;
+    double seconds = 0;
+    repartition.avoid_small_angles(
+        std::move(start), subdomains, 16,
+        [&] {
+          ++times;
+          return made;
+        },
+        [](const auto&) { return true; }, [&](const auto&) { return places; }, seconds);
+    return times;
+  };
+  CHECK(realized_for(32, 100) == 2); // with interfaces moved, and back
+  CHECK(realized_for(33, 100) == 0);
+  CHECK(realized_for(33, 3300) == 2);
+  CHECK(realized_for(34, 3300) == 0);
+}
+
 TEST_CASE("A decomposition that is given up leaves its account, and no pieces") {
   const testing::scratch_folder scratch("given_up");
   decomposed_shell given(0.5, 6);

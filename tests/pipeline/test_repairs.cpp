@@ -72,24 +72,32 @@ TEST_CASE("CAD faces that cross get smaller triangles, as long as there are roun
                        doctest::Contains("the surfaces of face 0 and face 1 cross"), intersection_error);
 }
 
-TEST_CASE("Where smaller triangles multiply what crosses there is no further round") {
-  const auto crossing_so_often = [](std::size_t times) {
+TEST_CASE("Where smaller triangles multiply the folded ones there is no further round") {
+  const auto folded = [](std::size_t times) {
     suppression_plan plan = crossing_faces();
     plan.surface_crossings.resize(times, plan.surface_crossings.front());
+    plan.folds = "a region is folded over";
     return plan;
   };
-  for (const bool is_folded : {false, true}) {
-    auto state = eight_subdomains();
-    state.refinements = 1;
-    apply(*repair_of(crossing_so_often(5), state), state);
-    auto more = crossing_so_often(35), many = crossing_so_often(36);
-    if (is_folded)
-      more.folds = many.folds = "a region is folded over";
-    CHECK(repair_of(more, state)->too_many_merges == more.folds);
-    CHECK_THROWS_AS(repair_of(many, state), intersection_error);
-    CHECK(refine_faults(more.surface_crossings, state));
-    CHECK(!refine_faults(many.surface_crossings, state));
-  }
+  auto state = eight_subdomains();
+  apply(*repair_of(folded(5), state), state);
+  CHECK(state.faults == 5);
+  CHECK(repair_of(folded(35), state)->smaller_sizes.size() == 35);
+  CHECK(repair_of(folded(36), state)->too_many_merges == "a region is folded over");
+  CHECK(refine_faults(folded(35).surface_crossings, state));
+  CHECK(!refine_faults(folded(36).surface_crossings, state));
+  // Crossings of faces are of another kind, before and after.
+  suppression_plan crossing = folded(36);
+  crossing.folds.clear();
+  CHECK(repair_of(crossing, state)->smaller_sizes.size() == 36);
+  apply(*repair_of(crossing, state), state);
+  state.refinements = 1;
+  CHECK(repair_of(folded(200), state)->smaller_sizes.size() == 200);
+
+  auto one = decomposition_state{{0}, {1, 0.05}, any_sizing(uniform_size(1))};
+  apply(*repair_of(folded(5), one), one);
+  CHECK(repair_of(folded(35), one)->smaller_sizes.size() == 35);
+  CHECK_THROWS_AS(repair_of(folded(36), one), intersection_error);
 }
 
 TEST_CASE("A face that stays folded over asks for fewer subdomains, where there can be fewer") {

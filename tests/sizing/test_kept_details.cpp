@@ -29,17 +29,12 @@ plane_domain square_with_chamfer(double width) {
   return plane_domain(drawing);
 }
 
-any_sizing sizes_at_details(const any_geometry& model, const any_sizing& size,
-                            const kept_detail_options& options = {}) {
-  return finer_at_details(model, size, options).size;
-}
-
 } // namespace
 
 TEST_CASE("sizes grow from a short edge, and are those given where they are smaller") {
   const any_geometry model = square_with_slit(0.01);
   const any_sizing given = keep_bounds(uniform_size(0.1));
-  const any_sizing fitted = sizes_at_details(model, given);
+  const any_sizing fitted = finer_at_details(model, given);
   CHECK(fitted(bottom) == doctest::Approx(0.01));
   CHECK(fitted(bottom + vec3{0.005, 0, 0}) == doctest::Approx(0.01)); // its end
   CHECK(fitted(bottom - vec3{0, 0.1, 0}) == doctest::Approx(0.01 + 0.4 * 0.1));
@@ -47,7 +42,7 @@ TEST_CASE("sizes grow from a short edge, and are those given where they are smal
   CHECK(fitted({0.5, -40, 0}) == 0.1); // no longer the edge's, however far
   CHECK(smallest_size_in(fitted, model.bounds()) < 0.0101);
   CHECK(smallest_size_in(fitted, {{0, 0, 0}, {0.1, 0.1, 0}}) == 0.1);
-  const any_sizing steeper = sizes_at_details(model, given, {.growth = 0.8});
+  const any_sizing steeper = finer_at_details(model, given, {.growth = 0.8});
   CHECK(steeper(bottom - vec3{0, 0.1, 0}) == doctest::Approx(0.01 + 0.8 * 0.1));
 }
 
@@ -58,12 +53,12 @@ TEST_CASE("sizes grow from a vertex that is near to another curve, across a face
     return any_geometry(plane_domain(drawing));
   };
   const any_sizing given = uniform_size(0.1);
-  const any_sizing fitted = sizes_at_details(notched(0.01), given);
+  const any_sizing fitted = finer_at_details(notched(0.01), given);
   CHECK(fitted({0.5, 0.01, 0}) == doctest::Approx(0.01));
   CHECK(fitted({0.5, 0, 0}) == doctest::Approx(0.01));
   CHECK(fitted({0.55, 0, 0}) == doctest::Approx(0.01 + 0.4 * 0.05));
-  CHECK(sizes_at_details(notched(0.03), given)({0.5, 0.03, 0}) == 0.1);
-  CHECK(sizes_at_details(notched(0.00005), given)({0.5, 0, 0}) == 0.1); // it is on the lower side
+  CHECK(finer_at_details(notched(0.03), given)({0.5, 0.03, 0}) == 0.1);
+  CHECK(finer_at_details(notched(0.00005), given)({0.5, 0, 0}) == 0.1); // it is on the lower side
   // The mouth of a slit has nothing of the square in it, whichever way it looks and with lips of any height.
   for (int turn = 0; turn < 12; ++turn)
     for (const double left : {0.98, 1.0, 1.02}) {
@@ -78,7 +73,7 @@ TEST_CASE("sizes grow from a vertex that is near to another curve, across a face
            {vec2{0, 0}, {1, 0}, {1, 1}, {0.505, 1}, {0.505, 0.3}, {0.495, 0.3}, {0.495, left}, {0, left}})
         drawing.polygons[0].points.push_back(turned(p));
       const any_geometry model = plane_domain(drawing);
-      const any_sizing by_details = sizes_at_details(model, given);
+      const any_sizing by_details = finer_at_details(model, given);
       const auto at = [&](vec2 p) { return by_details({turned(p).x, turned(p).y, 0}); };
       CHECK(at({0.505, 1}) == 0.1);
       CHECK(at({0.495, left}) == 0.1);
@@ -97,9 +92,9 @@ TEST_CASE("where no edge is short the field is the one given") {
   const auto is_given = [&](const any_sizing& size) {
     return size.target_type() == given.target_type() && size(bottom) == 0.1;
   };
-  CHECK(is_given(sizes_at_details(any_geometry(square_with_slit(0.03)), given)));
-  CHECK_FALSE(is_given(sizes_at_details(any_geometry(square_with_slit(0.02)), given)));
-  CHECK(is_given(sizes_at_details(any_geometry(square_with_slit(0.02)), given, {.share_of_size = 0.1})));
+  CHECK(is_given(finer_at_details(any_geometry(square_with_slit(0.03)), given)));
+  CHECK_FALSE(is_given(finer_at_details(any_geometry(square_with_slit(0.02)), given)));
+  CHECK(is_given(finer_at_details(any_geometry(square_with_slit(0.02)), given, {.share_of_size = 0.1})));
 }
 
 TEST_CASE("details that need too many elements stay as they are, the costly ones first") {
@@ -112,23 +107,24 @@ TEST_CASE("details that need too many elements stay as they are, the costly ones
     const double cheap = sizing::elements_of_growth(wide, 0.1, 0.4, dimension);
     const double both = cheap + sizing::elements_of_growth(narrow, 0.1, 0.4, dimension);
     const auto fit = [&](double most) {
-      return finer_at_details(model, given, {.most_elements = most, .dimension = dimension});
+      return details_to_fit(model, given, {.most_elements = most, .dimension = dimension});
     };
+    const auto size_at = [&](const detail_fit& of, vec3 p) { return finer_at(given, of.places, 0.4)(p); };
     const detail_fit all = fit(both * 1.01);
-    CHECK(all.size({1, 1, 0}) < 0.02);
-    CHECK(all.size({0, 1, 0}) < 0.002);
+    CHECK(size_at(all, {1, 1, 0}) < 0.02);
+    CHECK(size_at(all, {0, 1, 0}) < 0.002);
     CHECK(all.fitted == 2);
     CHECK(all.left == 0);
     CHECK(all.elements == doctest::Approx(both));
     const detail_fit one = fit(both * 0.99);
-    CHECK(one.size({1, 1, 0}) < 0.02);
-    CHECK(one.size({0, 1, 0}) == 0.1);
+    CHECK(size_at(one, {1, 1, 0}) < 0.02);
+    CHECK(size_at(one, {0, 1, 0}) == 0.1);
     CHECK(one.fitted == 1);
     CHECK(one.left == 1);
     CHECK(one.elements == doctest::Approx(cheap));
     CHECK(one.elements_of_all == doctest::Approx(both));
     const detail_fit none = fit(cheap * 0.99);
-    CHECK(none.size({1, 1, 0}) == 0.1);
+    CHECK(size_at(none, {1, 1, 0}) == 0.1);
     CHECK(none.fitted == 0);
     CHECK(none.left == 2);
     CHECK(none.elements == 0);
@@ -155,10 +151,10 @@ TEST_CASE("the elements that growing sizes add are an integral") {
 TEST_CASE("no size becomes smaller than is allowed, however short an edge is") {
   const any_geometry model = square_with_chamfer(1e-7);
   const any_sizing given = uniform_size(0.1);
-  CHECK(sizes_at_details(model, given)({1, 1, 0}) == doctest::Approx(1e-4).epsilon(0.01));
-  const any_sizing fitted = sizes_at_details(model, given, {.least_size = 0.01});
+  CHECK(finer_at_details(model, given)({1, 1, 0}) == doctest::Approx(1e-4).epsilon(0.01));
+  const any_sizing fitted = finer_at_details(model, given, {.least_size = 0.01});
   CHECK(fitted({1, 1, 0}) == doctest::Approx(0.01).epsilon(0.01));
-  CHECK(sizes_at_details(model, given, {.least_size = 0.1})({1, 1, 0}) == 0.1);
+  CHECK(finer_at_details(model, given, {.least_size = 0.1})({1, 1, 0}) == 0.1);
   CHECK(generate<2>(model, fitted, parameters<>{}).failures.empty());
 }
 
@@ -170,17 +166,19 @@ TEST_CASE("triangles beside a short edge have good angles when sizes fit it") {
     return result.quality.min_dihedral_deg;
   };
   CHECK(least_angle(uniform_size(0.1)) < 8);
-  CHECK(least_angle(sizes_at_details(model, uniform_size(0.1))) > 20);
+  CHECK(least_angle(finer_at_details(model, uniform_size(0.1))) > 20);
 }
 
 TEST_CASE("options and sizes out of range are refused") {
   const any_geometry model = square_with_slit(0.01);
   for (const double bad : {-1.0, std::nan("")}) {
-    CHECK_THROWS_AS(sizes_at_details(model, uniform_size(0.1), {.share_of_size = bad}), sizing_error);
-    CHECK_THROWS_AS(sizes_at_details(model, uniform_size(0.1), {.growth = bad}), sizing_error);
+    CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.share_of_size = bad}), sizing_error);
+    CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.growth = bad}), sizing_error);
   }
-  CHECK_THROWS_AS(sizes_at_details(model, uniform_size(0.1), {.growth = 0}), sizing_error);
-  CHECK_THROWS_AS(sizes_at_details(model, uniform_size(0.1), {.share_of_size = 1.5}), sizing_error);
+  CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.growth = 0}), sizing_error);
+  CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.share_of_size = 1.5}), sizing_error);
+  CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.most_elements = std::nan("")}), sizing_error);
+  CHECK_THROWS_AS(finer_at_details(model, uniform_size(0.1), {.dimension = 1}), sizing_error);
   for (const double bad : {-1.0, 0.0, std::nan("")})
-    CHECK_THROWS_AS(sizes_at_details(model, [bad](vec3) { return bad; }), sizing_error);
+    CHECK_THROWS_AS(finer_at_details(model, [bad](vec3) { return bad; }), sizing_error);
 }

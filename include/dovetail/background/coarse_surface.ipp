@@ -12,6 +12,7 @@
 #include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
+#include "dovetail/remesh/folds.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace dovetail::background {
 
@@ -117,9 +119,7 @@ private:
   bool gets_worse(std::size_t f) {
     std::size_t& before = folds_before_[f];
     const std::size_t now = meshes_[f].folded.size();
-    const bool worse = before > 0 && now > 3 * before + 20;
-    before = now;
-    return worse;
+    return are_multiplied(std::exchange(before, now), now);
   }
 
   /// Refines where faces failed; false when there is nothing to do again. Throws on the last round.

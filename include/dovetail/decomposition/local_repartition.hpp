@@ -28,8 +28,8 @@ public:
   /// earlier calls and moves interfaces away from them, at the least penalty of what then lies between parts.
   /// Parts stay connected, of one material and as manifold as they are, and gain little weight where others
   /// can. A place where that is not possible stays as it is. `parts` are those of `part_of_element`, which
-  /// may have been merged since the decomposition. Returns the number of super-elements that went. About
-  /// linear in the mesh, as long as the places are few.
+  /// may have been merged since the decomposition. Returns the number of super-elements that went. Linear
+  /// in the mesh, and quadratic in the places.
   std::size_t avoid(std::span<const std::vector<local_id>> places, std::vector<local_id>& part_of_element,
                     local_id parts) {
     append(places_, places);

@@ -58,7 +58,7 @@ struct generate_options {
   double largest_prediction = 0; ///< more predicted elements are refused (`too_many_elements`); 0: no limit
   /// More subdomains merged than this, in all rounds, is a failure; 2 of 8, or 1 of fewer, always may be.
   double largest_merged_fraction = 0.05;
-  int refinement_rounds = 6; ///< rounds of local refinement where two CAD regions cross
+  int refinement_rounds = 6; ///< of local refinement where CAD regions cross or stay folded over, at most
   /// Wall clock per task: an attempt at a subdomain, a batch of lines or of regions; the last resort. What it
   /// stops the summary counts (`stops_by_clock`): the mesh is not repeatable then.
   double limit_seconds = 600;

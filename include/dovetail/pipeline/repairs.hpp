@@ -9,6 +9,7 @@
 #include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/remesh/folds.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
@@ -26,15 +27,15 @@ struct decomposition_state {
   merge_account merges;                       ///< which subdomains were merged, and why
   refined_sizing size;                        ///< the field given, smaller where something crossed
   int refinements = 0;                        ///< repairs by smaller sizes so far
-  std::size_t surface_crossings = 0;          ///< that the last of them was for
-  local_id merged_after_failure = 0;          ///< subdomains merged since a piece could not be meshed
-  std::vector<std::string> warnings = {};     ///< what the report is to tell
+  std::size_t faults = 0; ///< folded triangles and the like that the last of them was for; 0: others
+  local_id merged_after_failure = 0;      ///< subdomains merged since a piece could not be meshed
+  std::vector<std::string> warnings = {}; ///< what the report is to tell
 };
 
 /// One repair: smaller sizes, merges, or the insight that only fewer subdomains would do.
 struct repair {
   std::vector<size_ball> smaller_sizes = {};        ///< balls in which sizes get smaller
-  std::size_t surface_crossings = 0;                ///< of CAD faces, that these are for
+  std::size_t faults = 0;                           ///< folded triangles and the like that these are for
   std::vector<std::array<local_id, 2>> merges = {}; ///< pairs of subdomains that become one
   std::string too_many_merges = {};                 ///< why fewer subdomains have to be made
   bool is_after_failure = false;                    ///< the merges are of pieces that no attempt could mesh
@@ -53,19 +54,13 @@ void apply(const repair& wanted, decomposition_state& state);
 std::optional<repair> repair_of_crossings(const suppression_plan& plan, const decomposition_state& state,
                                           const geometry_topology& topology, int refinement_rounds);
 
-/// Whether smaller triangles have multiplied what crosses or is folded over: then a surface is so, and not
-/// its mesh.
-inline bool gets_worse(std::size_t surface_crossings, const decomposition_state& state) {
-  return state.surface_crossings > 0 && surface_crossings > 3 * state.surface_crossings + 20;
-}
-
 /// Smaller sizes at the faults of surfaces by which pieces have failed, as long as there are rounds and these
 /// do not make it worse.
 inline std::optional<repair> refine_faults(const std::vector<surface_crossing>& faults,
                                            const decomposition_state& state) {
-  if (faults.empty() || gets_worse(faults.size(), state))
+  if (faults.empty() || are_multiplied(state.faults, faults.size()))
     return {};
-  return repair{.smaller_sizes = balls_around(one_of_each_place(faults)), .surface_crossings = faults.size()};
+  return repair{.smaller_sizes = balls_around(one_of_each_place(faults)), .faults = faults.size()};
 }
 
 /// Merges of what no attempt could mesh, each with a neighbour; only a warning where that would be too many.

@@ -19,7 +19,7 @@ namespace dovetail {
 DOVETAIL_INLINE void apply(const repair& wanted, decomposition_state& state) {
   if (!wanted.smaller_sizes.empty()) {
     state.size.refine(wanted.smaller_sizes);
-    state.surface_crossings = wanted.surface_crossings;
+    state.faults = wanted.faults;
     ++state.refinements;
   }
   if (!wanted.merges.empty()) {
@@ -37,20 +37,22 @@ inline int rounds_before_others(int refinement_rounds) {
   return std::min(refinement_rounds, 2);
 }
 
-/// Two CAD faces that cross, or one that is folded over: smaller triangles there. Throws
-/// `intersection_error` that names the faces when no round is left, or they make it worse.
+/// Two CAD faces that cross, or one that is folded over: smaller triangles there. A fold of which these make
+/// more, or that two rounds leave, may come from how interfaces cut the face: fewer subdomains. Throws
+/// `intersection_error` that names the faces when no round is left, or there cannot be fewer.
 inline repair repair_of_surfaces(const suppression_plan& plan, const decomposition_state& state,
                                  const geometry_topology& topology, int refinement_rounds) {
+  const bool is_folded = !plan.folds.empty();
+  const bool gets_worse = is_folded && are_multiplied(state.faults, plan.surface_crossings.size());
   const auto least_subdomains = std::max<std::size_t>(1, topology.solids.size());
-  const bool is_worse = gets_worse(plan.surface_crossings.size(), state);
   const bool can_be_fewer = static_cast<std::size_t>(state.merges.subdomains()) > least_subdomains;
-  if (!plan.folds.empty() && can_be_fewer && !is_worse &&
-      state.refinements >= rounds_before_others(refinement_rounds))
+  if (is_folded && can_be_fewer &&
+      (gets_worse || state.refinements >= rounds_before_others(refinement_rounds)))
     return {.too_many_merges = plan.folds}; // whole faces may not fold
-  if (state.refinements >= refinement_rounds || is_worse)
+  if (state.refinements >= refinement_rounds || gets_worse)
     throw_crossing_faces(topology, plan.surface_crossings.front().cad_faces);
   return {.smaller_sizes = balls_around(plan.surface_crossings),
-          .surface_crossings = plan.surface_crossings.size()};
+          .faults = is_folded ? plan.surface_crossings.size() : 0};
 }
 
 /// Interfaces that cross something: the two subdomains are merged. Where that is too many, or lines are at

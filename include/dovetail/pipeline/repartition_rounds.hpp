@@ -14,7 +14,8 @@
 
 namespace dovetail {
 
-/// A local search for the decomposition with the fewest small angles. Mesh and division must outlive it.
+/// A local search for the decomposition with small angles in the fewest places. Mesh and division must
+/// outlive it.
 template <int D>
 class repartition_rounds {
 public:
@@ -29,7 +30,8 @@ public:
   /// interfaces have such angles already, the rule does not care for them, and nothing is done.
   ///
   /// `realize()` realizes `subdomain_of_element` as it is then, `crosses(made)` says whether something
-  /// crosses in that, and `small_angles(made)` gives the coarse sides at each small angle of it.
+  /// crosses in that, and `small_angles(made)` gives the places of small angles in it, each as
+  /// its coarse sides.
   template <class Realize, class Crosses, class SmallAngles>
   realized<D> avoid_small_angles(realized<D> made, std::vector<local_id>& subdomain_of_element,
                                  local_id subdomains, const Realize& realize, const Crosses& crosses,
@@ -77,14 +79,14 @@ public:
 private:
   /// Each takes the time of what it changes, and mostly two are enough.
   static constexpr int most_rounds = 8;
-  /// With more small angles per interface face the decomposition is poor as a whole: this would take longer
-  /// than all the rest.
-  static constexpr double most_per_face = 0.01;
-  static constexpr std::size_t least_of_most = 32; ///< and at least so many are tried
+  /// With more places of small angles per interface face the decomposition is poor as a whole: this would
+  /// take longer than all the rest.
+  static constexpr double most_places_per_face = 0.01;
+  static constexpr std::size_t always_tried = 32; ///< places, however few the faces are
 
   static std::size_t most_places(const skeleton_counts& counts) {
-    return std::max(least_of_most,
-                    static_cast<std::size_t>(most_per_face * static_cast<double>(counts.interface_faces)));
+    return std::max(always_tried, static_cast<std::size_t>(most_places_per_face *
+                                                           static_cast<double>(counts.interface_faces)));
   }
 
   local_repartition<D> repartition_;

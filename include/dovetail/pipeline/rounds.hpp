@@ -160,7 +160,7 @@ private:
         [&](const realized<D>& made_so) { return small_angles_of(made_so); }, account_.seconds);
   }
 
-  /// Measures the interface angles; returns the coarse sides at each that is small and not forced.
+  /// Measures the interface angles; returns the places of those that are small and not forced.
   std::vector<std::vector<local_id>> small_angles_of(const realized<D>& made) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);

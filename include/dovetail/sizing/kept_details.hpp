@@ -35,7 +35,8 @@ struct kept_detail_options {
 namespace sizing {
 
 /// About how many elements a size that grows from a place on a surface makes more than the one that it grows
-/// to: the integral of the inverse cube over half a ball, or of the inverse square over a disk.
+/// to: the integral of the inverse cube over half a ball, or of the inverse square over a disk, of which a
+/// plane domain has only half. O(1), throws nothing.
 /// \param from the size at the place
 /// \param to the size that it grows to; larger
 /// \param growth of the size per length
@@ -262,56 +263,88 @@ private:
 
 } // namespace sizing
 
-/// A field that fits details of a model, and how many of them.
+/// The details of a model that sizes are to fit, and what that takes.
 struct detail_fit {
-  any_sizing size;            ///< the field
-  std::size_t fitted = 0;     ///< details that it fits
-  std::size_t left = 0;       ///< details that would have needed too many elements
-  double elements = 0;        ///< about how many elements those fitted add
-  double elements_of_all = 0; ///< about how many all would
+  std::vector<sized_point> places; ///< of those that are fitted: how small the size is where
+  std::size_t fitted = 0;          ///< details among these
+  std::size_t left = 0;            ///< further details, which would have needed too many elements
+  double elements = 0;             ///< about how many elements those fitted add
+  double elements_of_all = 0;      ///< about how many all would
 
   using fields =
       field_list<&detail_fit::fitted, &detail_fit::left, &detail_fit::elements, &detail_fit::elements_of_all>;
 };
 
-/// A field that at each detail of a model is as small as that, grows from there, and is the one given
-/// elsewhere. Details are edges far shorter than the size, and vertices of a face far nearer, across the
-/// face, to another curve of it: triangles there would have an angle of about the ratio of both. Where there
-/// are none, or none within the elements allowed, the result is the field given.
-/// Throws `sizing_error` for options out of range, and for sizes that are not positive and finite.
-/// About n log n in the curves of each face and their lengths in sizes.
-/// \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
-/// \param size the field, asked at the middle of each curve and at vertices
-/// \param options what is a detail
-template <geometry_model G>
-detail_fit finer_at_details(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
-  sizing::checked_length(options.share_of_size, "the share of the size that details have");
-  sizing::checked_length(options.touching_share, "the share of the size by which vertices are off curves");
-  sizing::checked_length(options.least_size, "the least size at details");
-  sizing::checked_size(options.growth, "the growth of sizes from details");
+namespace sizing {
+
+/// Throws `sizing_error` for options out of range.
+inline void check(const kept_detail_options& options) {
+  checked_length(options.share_of_size, "the share of the size that details have");
+  checked_length(options.touching_share, "the share of the size by which vertices are off curves");
+  checked_length(options.least_size, "the least size at details");
+  checked_size(options.growth, "the growth of sizes from details");
   if (options.share_of_size > 1)
     throw sizing_error("details are smaller than the size; give a share of at most 1");
+  if (!(options.most_elements >= 0))
+    throw sizing_error("give a number of elements that details may need");
+  if (options.dimension != 2 && options.dimension != 3)
+    throw sizing_error("elements are of dimension 2 or 3");
+}
+
+} // namespace sizing
+
+/// The details of a model that sizes should fit: edges far shorter than the size, and vertices of a face far
+/// nearer, across the face, to another curve of it. Triangles there would have an angle of about the ratio of
+/// both. Those that need the fewest elements come first, as far as the elements allowed are enough.
+/// Complexity: about n log n in the curves of each face and their lengths in sizes. Throws `sizing_error` for
+/// options out of range, and for sizes that are not positive and finite.
+/// \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
+/// \param size the field, asked at the middle of each curve and at vertices
+/// \param options what is a detail, and how many elements may be spent
+template <geometry_model G>
+detail_fit details_to_fit(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
+  sizing::check(options);
   const sizing::kept_details<G> found(model, size, options);
-  std::vector<sizing::kept_detail> details = found.list();
-  std::stable_sort(details.begin(), details.end(),
-                   [](const auto& a, const auto& b) { return a.elements < b.elements; });
-  detail_fit fit{size};
-  std::vector<sized_point> points;
-  for (const sizing::kept_detail& detail : details) {
-    fit.elements_of_all += detail.elements;
+  std::vector<const sizing::kept_detail*> details;
+  for (const sizing::kept_detail& detail : found.list())
+    details.push_back(&detail);
+  stable_sort_all(details, [](const auto* a, const auto* b) { return a->elements < b->elements; });
+  detail_fit fit;
+  for (const sizing::kept_detail* detail : details) {
+    fit.elements_of_all += detail->elements;
     if (!(fit.elements_of_all <= options.most_elements)) {
       ++fit.left;
       continue;
     }
     ++fit.fitted;
     fit.elements = fit.elements_of_all;
-    for (const vec3 p : detail.places)
-      points.push_back({p, detail.size});
+    for (const vec3 p : detail->places)
+      fit.places.push_back({p, detail->size});
   }
-  if (!points.empty())
-    fit.size = keep_bounds(minimum_of(
-        erased_sizing(size), point_sizes(points, options.growth, std::numeric_limits<double>::max())));
   return fit;
+}
+
+/// A field that at some places is as small as they say, grows from there, and is the one given elsewhere.
+/// Complexity: n log n in the places; an evaluation takes about log n.
+/// Throws `sizing_error` for a size or growth that is not positive and finite.
+/// \param size the field
+/// \param places such as those of `details_to_fit`; without any the result is the field given
+/// \param growth of the size per length, which has no unit
+inline any_sizing finer_at(const any_sizing& size, const std::vector<sized_point>& places, double growth) {
+  if (places.empty())
+    return size;
+  return keep_bounds(
+      minimum_of(erased_sizing(size), point_sizes(places, growth, std::numeric_limits<double>::max())));
+}
+
+/// Both: a field that fits those details of a model for which the elements allowed are enough, and is the one
+/// given where there are none. Complexity and errors are those of `details_to_fit`.
+/// \param model as there
+/// \param size the field
+/// \param options what is a detail, and how many elements may be spent
+template <geometry_model G>
+any_sizing finer_at_details(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
+  return finer_at(size, details_to_fit(model, size, options).places, options.growth);
 }
 
 } // namespace dovetail

@@ -14,7 +14,7 @@
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <ShapeBuild_ReShape.hxx>
 
-#include <set>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,28 +46,26 @@ inline void keep_oriented_solids(attributed_shape& input, wanted what) {
   input.shape = all;
 }
 
-/// Leaves out solids that have the faces of another one, such as a part that is in an assembly twice.
+/// Leaves out solids that have the faces of another one: two of one shell.
 inline void drop_repeated_solids(attributed_shape& input, report& made) {
   const TopTools_IndexedMapOfShape faces = sub_shapes(input.shape, TopAbs_FACE);
   const TopTools_IndexedMapOfShape solids = sub_shapes(input.shape, TopAbs_SOLID);
   const Handle(ShapeBuild_ReShape) context = new ShapeBuild_ReShape;
-  std::set<std::vector<int>> seen;
-  int repeated = 0;
+  std::map<std::vector<int>, int> seen;
   for (int i = 1; i <= solids.Extent(); ++i) {
     std::vector<int> own;
     for (TopExp_Explorer each(solids(i), TopAbs_FACE); each.More(); each.Next())
       own.push_back(faces.FindIndex(each.Current()));
     sort_all(own);
-    if (seen.insert(std::move(own)).second)
+    const auto [first, is_new] = seen.try_emplace(std::move(own), i - 1);
+    if (is_new)
       continue;
     context->Remove(solids(i));
-    ++repeated;
+    made.warnings.push_back("solid " + std::to_string(i - 1) + " has the faces of solid " +
+                            std::to_string(first->second) + " and is left out");
   }
-  if (repeated == 0)
-    return;
-  input.shape = context->Apply(input.shape);
-  made.warnings.push_back(std::to_string(repeated) + (repeated == 1 ? " solid has" : " solids have") +
-                          " the faces of another one, and " + (repeated == 1 ? "is" : "are") + " left out");
+  if (static_cast<int>(seen.size()) < solids.Extent())
+    input.shape = context->Apply(input.shape);
 }
 
 /// A shape without a solid: its faces are sewn, at growing tolerance, until shells close. Throws
