@@ -109,6 +109,13 @@ notch
 above "$least" 20 || fault "the least angle beside the notch is $least"
 notch --keep-all
 above "$least" 20 || fault "with all details the least angle beside the notch is $least"
+notch --elements 300
+grep -q 'sizes fit 0 of 1 details .*--elements of at least [56]' "$sandbox/work/report.json" ||
+  fault "a detail that needs too many elements is left without a word"
+notch --elements 3000
+! grep -q 'sizes fit' "$sandbox/work/report.json" || fault "a detail is said to be left that is not"
+above "$least" 20 || fault "with 3000 elements the least angle beside the notch is $least"
+above "$(figure elements | tr -d ,)" 2700 && above 3300 "$(figure elements | tr -d ,)" || fault "they are $(figure elements)"
 notch -s 0.6
 above 12 "$least" || fault "a size that was given is another one beside the notch: $least"
 
