@@ -338,7 +338,7 @@ inline any_sizing finer_at(const any_sizing& size, const std::vector<sized_point
 }
 
 /// Both: a field that fits those details of a model for which the elements allowed are enough, and is the one
-/// given where there are none. Complexity and errors are those of `details_to_fit`.
+/// given where there are none. Complexity: that of `details_to_fit`. Throws `sizing_error` as that does.
 /// \param model as there
 /// \param size the field
 /// \param options what is a detail, and how many elements may be spent
