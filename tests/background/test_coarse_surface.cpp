@@ -87,20 +87,27 @@ TEST_CASE("a pole that is straight but for rounding gets no points beside it") {
   }
 }
 
-TEST_CASE("the points of a pole are put on a line only where they are on one but for rounding") {
+TEST_CASE(
+    "the points of a pole are put on a line, on its inner side, where they are on one but for rounding") {
   const vec2 extent{6, 3};
-  std::vector<vec2> pole{{6, 1.5}, {4, 1.5 + 1e-15}, {2, 1.5 - 1e-15}};
-  vec2 last{0, 1.5 + 1e-15};
-  background::detail::straighten_pole(pole, last, extent);
-  CHECK(pole == std::vector<vec2>{{6, 1.5}, {4, 1.5}, {2, 1.5}});
-  CHECK(last == vec2{0, 1.5});
+  const double below = 1.5 - 1e-15, above = 1.5 + 1e-15;
+  const auto straight = [&](double inside) {
+    std::vector<vec2> pole{{6, 1.5}, {4, above}, {2, below}};
+    vec2 last{0, above};
+    background::detail::straighten_pole(pole, last, {3, inside}, extent);
+    pole.push_back(last);
+    return pole;
+  };
+  CHECK(straight(0.5) == std::vector<vec2>{{6, below}, {4, below}, {2, below}, {0, below}});
+  CHECK(straight(2.5) == std::vector<vec2>{{6, above}, {4, above}, {2, above}, {0, above}});
   const std::vector<vec2> bent{{6, 1.5}, {4, 1.6}, {2, 1.5}};
-  pole = bent;
-  background::detail::straighten_pole(pole, last, extent);
+  std::vector<vec2> pole = bent;
+  vec2 last{0, 1.5};
+  background::detail::straighten_pole(pole, last, {3, 0}, extent);
   CHECK(pole == bent);
   std::vector<vec2> upright{{1, 0}, {1 - 1e-15, 2}};
-  vec2 top{1 + 1e-15, 3};
-  background::detail::straighten_pole(upright, top, extent);
+  vec2 top{1 - 1e-15, 3};
+  background::detail::straighten_pole(upright, top, {4, 1}, extent);
   CHECK(upright == std::vector<vec2>{{1, 0}, {1, 2}});
   CHECK(top == vec2{1, 3});
 }

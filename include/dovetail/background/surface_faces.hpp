@@ -3,12 +3,14 @@
 #pragma once
 
 #include "dovetail/background/surface_curves.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/remesh/patch.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -67,19 +69,20 @@ inline vec2 parameter_extent(const any_geometry& model, local_id f) {
 
 /// Puts the points of a pole, of which the last one begins the next coedge, on one straight line of the
 /// parameter plane, as they are but for rounding: in the sliver beside it a mesher would find room for
-/// points, all at the pole.
-inline void straighten_pole(std::span<vec2> pole, vec2& last, vec2 extent) {
+/// points, all at the pole. The line is on the side of `inside`, since beyond a cone's tip its normal turns.
+inline void straighten_pole(std::span<vec2> pole, vec2& last, vec2 inside, vec2 extent) {
   constexpr double rounding = 1e-9; // of the face's extent
   for (double vec2::*coordinate : {&vec2::x, &vec2::y}) {
-    const double first = pole[0].*coordinate;
-    const auto is_first = [&](vec2 uv) {
-      return std::abs(uv.*coordinate - first) <= rounding * extent.*coordinate;
-    };
-    if (!is_first(last) || !std::all_of(pole.begin(), pole.end(), is_first))
+    double lowest = last.*coordinate, highest = lowest;
+    for (const vec2 uv : pole) {
+      lowest = std::min(lowest, uv.*coordinate);
+      highest = std::max(highest, uv.*coordinate);
+    }
+    if (highest - lowest > rounding * extent.*coordinate)
       continue;
+    last.*coordinate = inside.*coordinate < lowest ? lowest : highest;
     for (vec2& uv : pole)
-      uv.*coordinate = first;
-    last.*coordinate = first;
+      uv.*coordinate = last.*coordinate;
   }
 }
 
@@ -105,9 +108,10 @@ inline face_patch make_face_patch(const any_geometry& model, local_id f, const c
       ++k;
     }
     const auto end = static_cast<local_id>(b.uv.size());
+    const vec2 inside = (1.0 / (end - first)) * std::accumulate(b.uv.begin() + first, b.uv.end(), vec2{});
     for (const auto& [begin, next] : poles)
-      detail::straighten_pole(std::span(b.uv).subspan(begin, next - begin), b.uv[next < end ? next : first],
-                              extent);
+      detail::straighten_pole(span_of(b.uv).subspan(begin, next - begin), b.uv[next < end ? next : first],
+                              inside, extent);
     for (local_id i = first; i < end; ++i)
       b.segments.push_back({i, i + 1 < end ? i + 1 : first});
   }
