@@ -59,7 +59,7 @@ suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& st
       made.fine, planar, given.run_tasks,
       known_from_patches(made.fine, patches.first_triangle, patches.keys, store.patches_apart), {},
       given.options.on_progress);
-  if (plan.empty()) {
+  if (plan.empty() && !made.is_part) {
     store.patches_apart = patches.keys;
     sort_unique(store.patches_apart);
   }

@@ -54,6 +54,7 @@ struct realized {
   remeshed_patches patches; ///< in D = 3; in D = 2 what lies between the lines are the pieces
   skeleton_counts counts;   ///< what was counted on the way
   report summary;           ///< the same, with warnings and deviations
+  bool is_part = false;     ///< only of the skeleton around some points (`realize_part`)
 };
 
 /// The lines, patches and matching segments made so far, by their keys. After a merge of subdomains most are
@@ -95,6 +96,16 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
   return realize<D>(model, mesh, divided, std::move(subdomain_of_element), subdomains, size, made,
                     bind_parameters<D>(given));
 }
+
+/// The same of what has one of some points of the background mesh: all patches there, and their lines. At
+/// these points it is what `realize` makes, but for lines whose numbers of segments patches farther off would
+/// change. Costs what there is there, and a walk over the background mesh.
+/// \param is_wanted per point of the background mesh
+template <int D, bound_parameters<D> Parameters>
+realized<D> realize_part(const any_geometry& model, const simplicial_background<D>& mesh,
+                         const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
+                         std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                         const Parameters& given, const std::vector<bool>& is_wanted);
 
 } // namespace dovetail
 

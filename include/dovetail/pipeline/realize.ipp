@@ -5,6 +5,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
+#include "dovetail/decomposition/skeleton_part.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/simplification/angles_of_rule.hpp"
@@ -32,17 +33,29 @@ void space_lines(const any_geometry& model, const surface_mesh& surface, std::sp
 }
 
 /// The surface step of both dimensions: the skeleton of the pieces of a surface, and of the interface faces
-/// that end on it, with its lines remeshed.
+/// that end on it.
+inline coarse_skeleton skeleton_between(const simplicial_background<2>& mesh, const divided_background<2>&,
+                                        const std::vector<local_id>& subdomain_of_element) {
+  return extract_skeleton(mesh.surface, own_subdomains(subdomain_of_element), {}, mesh_state::valid);
+}
+inline coarse_skeleton skeleton_between(const simplicial_background<3>& mesh,
+                                        const divided_background<3>& divided,
+                                        const std::vector<local_id>& subdomain_of_element) {
+  return extract_skeleton(mesh.surface, induced_subdomains(divided.beside_surface, subdomain_of_element),
+                          interface_faces(mesh, divided.sides, subdomain_of_element, mesh_state::valid),
+                          mesh_state::valid);
+}
+
+/// A skeleton with its lines remeshed.
 template <int D, bound_parameters<D> Parameters>
-realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface,
-                          std::span<const vec3> coarse_points, const triangle_subdomains& pieces,
-                          std::vector<skeleton_face> faces, const refined_sizing& size, skeleton_store& made,
+realized<D> realize_lines(const any_geometry& model, const simplicial_background<D>& mesh,
+                          coarse_skeleton coarse, const refined_sizing& size, skeleton_store& made,
                           const Parameters& given) {
   const stopwatch clock;
   const std::size_t made_before = made.lines.made();
   realized<D> result;
-  result.coarse = extract_skeleton(surface, pieces, std::move(faces), mesh_state::valid);
-  space_lines(model, surface, coarse_points, size, made, given, result);
+  result.coarse = std::move(coarse);
+  space_lines(model, mesh.surface, mesh.points(), size, made, given, result);
   result.summary.name = "skeleton";
   result.counts.lines = result.coarse.lines.size();
   result.counts.regions = result.coarse.regions.size();
@@ -53,11 +66,10 @@ realized<D> realize_lines(const any_geometry& model, const surface_mesh& surface
 
 template <bound_parameters<2> Parameters>
 realized<2> realize_boundaries(const any_geometry& model, const simplicial_background<2>& mesh,
-                               const divided_background<2>& divided,
+                               const divided_background<2>& divided, coarse_skeleton coarse,
                                const std::vector<local_id>& subdomain_of_element, std::span<const local_id>,
                                const refined_sizing& size, skeleton_store& made, const Parameters& given) {
-  auto result = realize_lines<2>(model, mesh.surface, mesh.points(), own_subdomains(subdomain_of_element), {},
-                                 size, made, given);
+  auto result = realize_lines<2>(model, mesh, std::move(coarse), size, made, given);
   result.fine = skeleton_of_lines(mesh.surface, divided.sides, subdomain_of_element, result.lines);
   result.counts.edges = result.fine.sides.size();
   result.counts.points = result.fine.points.size();
@@ -100,14 +112,11 @@ skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized
 
 template <bound_parameters<3> Parameters>
 realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
-                               const divided_background<3>& divided,
-                               const std::vector<local_id>& subdomain_of_element,
-                               std::span<const local_id> material_of_subdomain, const refined_sizing& size,
-                               skeleton_store& made, const Parameters& given) {
+                               const divided_background<3>&, coarse_skeleton coarse,
+                               const std::vector<local_id>&, std::span<const local_id> material_of_subdomain,
+                               const refined_sizing& size, skeleton_store& made, const Parameters& given) {
   const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
-  auto result = realize_lines<3>(
-      model, mesh.surface, mesh.points(), induced_subdomains(divided.beside_surface, subdomain_of_element),
-      interface_faces(mesh, divided.sides, subdomain_of_element, mesh_state::valid), size, made, given);
+  auto result = realize_lines<3>(model, mesh, std::move(coarse), size, made, given);
   const skeleton_to_remesh of{model,        mesh.surface, mesh.points(),        result.coarse,
                               result.lines, size,         material_of_subdomain};
   auto remeshed = join_patches(of, patches_on_matched_lines(of, result, made, given), given.run_tasks,
@@ -125,6 +134,26 @@ realized<3> realize_boundaries(const any_geometry& model, const simplicial_backg
   return result;
 }
 
+/// With this skeleton, or a part of it.
+template <int D, bound_parameters<D> Parameters>
+realized<D> realize_skeleton(const any_geometry& model, const simplicial_background<D>& mesh,
+                             const divided_background<D>& divided, coarse_skeleton coarse,
+                             std::vector<local_id> subdomain_of_element, std::size_t subdomains,
+                             const refined_sizing& size, skeleton_store& made, const Parameters& given) {
+  const auto materials = materials_of(mesh);
+  std::vector<local_id> material_of_subdomain(subdomains, 0);
+  for (std::size_t e = 0; e < subdomain_of_element.size(); ++e)
+    if (D == 3) // elements of what is not divided are solids, and have no tags
+      material_of_subdomain[subdomain_of_element[e]] =
+          materials.empty() ? static_cast<local_id>(e) : materials[e];
+  auto result = realize_boundaries(model, mesh, divided, std::move(coarse), subdomain_of_element,
+                                   material_of_subdomain, size, made, given);
+  result.material_of_subdomain = std::move(material_of_subdomain);
+  result.subdomain_of_element = std::move(subdomain_of_element);
+  result.summary.set(result.counts);
+  return result;
+}
+
 } // namespace detail
 
 template <int D, bound_parameters<D> Parameters>
@@ -133,17 +162,26 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
                     std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                     const Parameters& given) {
   const stopwatch clock;
-  const auto materials = detail::materials_of(mesh);
-  std::vector<local_id> material_of_subdomain(subdomains, 0);
-  for (std::size_t e = 0; e < subdomain_of_element.size(); ++e)
-    if (D == 3) // elements of what is not divided are solids, and have no tags
-      material_of_subdomain[subdomain_of_element[e]] =
-          materials.empty() ? static_cast<local_id>(e) : materials[e];
-  auto result = detail::realize_boundaries(model, mesh, divided, subdomain_of_element, material_of_subdomain,
-                                           size, made, given);
-  result.material_of_subdomain = std::move(material_of_subdomain);
-  result.subdomain_of_element = std::move(subdomain_of_element);
-  result.summary.set(result.counts);
+  auto coarse = detail::skeleton_between(mesh, divided, subdomain_of_element);
+  auto result =
+      detail::realize_skeleton<D>(model, mesh, divided, std::move(coarse), std::move(subdomain_of_element),
+                                  subdomains, size, made, given);
+  result.summary.seconds = clock.seconds();
+  return result;
+}
+
+template <int D, bound_parameters<D> Parameters>
+realized<D> realize_part(const any_geometry& model, const simplicial_background<D>& mesh,
+                         const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
+                         std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                         const Parameters& given, const std::vector<bool>& is_wanted) {
+  const stopwatch clock;
+  auto coarse = part_at_points(detail::skeleton_between(mesh, divided, subdomain_of_element), mesh.surface,
+                               is_wanted);
+  auto result =
+      detail::realize_skeleton<D>(model, mesh, divided, std::move(coarse), std::move(subdomain_of_element),
+                                  subdomains, size, made, given);
+  result.is_part = true;
   result.summary.seconds = clock.seconds();
   return result;
 }
@@ -159,6 +197,11 @@ template realized<3> realize<3>(const any_geometry& model, const simplicial_back
                                 std::vector<local_id> subdomain_of_element, std::size_t subdomains,
                                 const refined_sizing& size, skeleton_store& made,
                                 const any_parameters<3>& given);
+template realized<3> realize_part<3>(const any_geometry& model, const simplicial_background<3>& mesh,
+                                     const divided_background<3>& divided,
+                                     std::vector<local_id> subdomain_of_element, std::size_t subdomains,
+                                     const refined_sizing& size, skeleton_store& made,
+                                     const any_parameters<3>& given, const std::vector<bool>& is_wanted);
 #endif
 
 } // namespace dovetail

@@ -2,6 +2,7 @@
 /// Local repartition where remeshing makes an angle of an interface small.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/local_repartition.hpp"
 #include "dovetail/pipeline/divide.hpp"
@@ -9,10 +10,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
+
+/// Places of small angles, each as the coarse sides there.
+using places_of_angles = std::vector<std::vector<local_id>>;
 
 /// A local search for the decomposition with small angles in the fewest places. Mesh and division must
 /// outlive it.
@@ -22,51 +28,47 @@ public:
   /// `are_wanted`: false does nothing but measure.
   repartition_rounds(const simplicial_background<D>& mesh, const divided_background<D>& divided,
                      bool are_wanted)
-      : repartition_(mesh.elements(), divided.sides, divided.pieces),
+      : mesh_(mesh), sides_(divided.sides), repartition_(mesh.elements(), divided.sides, divided.pieces),
         are_wanted_(are_wanted && divided.angles.count(violation_cause::remeshing) == 0) {}
 
-  /// Changes `subdomain_of_element`, of which `made` is realized, round by round; the best is taken, and
-  /// what is realized of it returned. Where something crosses then, a round is taken back. Where the coarse
-  /// interfaces have such angles already, the rule does not care for them, and nothing is done.
+  /// Changes `subdomain_of_element`, of which `made` is realized, and returns what is realized of it then.
+  /// Rounds look at what is around their changes alone; the best of them is realized as a whole, and stays
+  /// if it is better there, too, and nothing crosses. Where the coarse interfaces have such angles already,
+  /// the rule does not care for them, and nothing is done.
   ///
-  /// `realize()` realizes `subdomain_of_element` as it is then, `crosses(made)` says whether something
-  /// crosses in that, and `small_angles(made)` gives the places of small angles in it, each as
-  /// its coarse sides.
-  template <class Realize, class Crosses, class SmallAngles>
+  /// `realize()` realizes `subdomain_of_element` as it is then, and `realize_part(subdomains, is_wanted)` the
+  /// part of such a list's skeleton that has points of a kind; `crosses(made)` says whether something crosses
+  /// in that, and `small_angles(made)` gives the places of small angles in it.
+  template <class Realize, class RealizePart, class Crosses, class SmallAngles>
   realized<D> avoid_small_angles(realized<D> made, std::vector<local_id>& subdomain_of_element,
-                                 local_id subdomains, const Realize& realize, const Crosses& crosses,
-                                 const SmallAngles& small_angles, double& seconds) {
+                                 local_id subdomains, const Realize& realize, const RealizePart& realize_part,
+                                 const Crosses& crosses, const SmallAngles& small_angles, double& seconds) {
     const auto realize_again = [&] {
       made = {}; // before the next one, which is as large
       made = realize();
     };
     auto places = small_angles(made);
     const stopwatch cost;
-    auto best = std::pair(places.size(), subdomain_of_element);
-    while (are_wanted_ && !places.empty() && places.size() <= most_places(made.counts) &&
-           rounds_ < most_rounds) {
-      const auto before = subdomain_of_element;
-      const stopwatch clock;
-      const std::size_t moved = repartition_.avoid(places, subdomain_of_element, subdomains);
-      seconds += clock.seconds();
-      if (moved == 0)
+    while (are_wanted_ && !places.empty() && places.size() <= most_places(made.counts)) {
+      found best{places, subdomain_of_element};
+      const auto looks_at = [&](const std::vector<local_id>& subdomain, const std::vector<bool>& is_wanted) {
+        auto part = realize_part(subdomain, is_wanted);
+        return crosses(part) ? std::nullopt : std::optional(small_angles(part));
+      };
+      if (!find_better(best, subdomains, looks_at, seconds))
         break;
-      ++rounds_;
+      std::swap(subdomain_of_element, best.subdomain_of_element);
       realize_again();
-      if (crosses(made)) { // the same places would only ask for the same moves again
-        subdomain_of_element = before;
+      const bool is_apart = !crosses(made);
+      auto left = is_apart ? small_angles(made) : places;
+      if (left.size() >= places.size()) {
+        subdomain_of_element = std::move(best.subdomain_of_element);
         realize_again();
+        small_angles(made);
         break;
       }
-      moved_ += moved;
-      places = small_angles(made);
-      if (places.size() < best.first)
-        best = {places.size(), subdomain_of_element};
-    }
-    if (places.size() > best.first) {
-      subdomain_of_element = std::move(best.second);
-      realize_again();
-      small_angles(made);
+      moved_ += best.moved;
+      places = std::move(left);
     }
     seconds_ += rounds_ > 0 ? cost.seconds() : 0;
     made.counts.repartition_rounds = rounds_;
@@ -77,7 +79,7 @@ public:
   }
 
 private:
-  /// Each takes the time of what it changes, and mostly two are enough.
+  /// Mostly two are enough.
   static constexpr int most_rounds = 8;
   /// With more places of small angles per interface face the decomposition is poor as a whole: this would
   /// take longer than all the rest.
@@ -89,6 +91,68 @@ private:
                                                            static_cast<double>(counts.interface_faces)));
   }
 
+  /// A decomposition, and where it has small angles.
+  struct found {
+    places_of_angles places;
+    std::vector<local_id> subdomain_of_element;
+    std::size_t moved = 0; ///< super-elements, since the decomposition that was realized as a whole
+  };
+
+  /// Goes on from the best one round by round; whether there is a better one.
+  template <class Look>
+  bool find_better(found& best, local_id subdomains, const Look& looks_at, double& seconds) {
+    const std::size_t places_before = best.places.size();
+    found here = best;
+    while (!here.places.empty() && rounds_ < most_rounds) {
+      const auto before = here.subdomain_of_element;
+      const stopwatch clock;
+      const std::size_t moved = repartition_.avoid(here.places, here.subdomain_of_element, subdomains);
+      const auto changed = points_of_changed(before, here.subdomain_of_element);
+      seconds += clock.seconds();
+      if (moved == 0)
+        break;
+      ++rounds_;
+      here.moved += moved;
+      const auto places_there = looks_at(here.subdomain_of_element, points_around(changed));
+      if (!places_there) // something crosses; the same places would only ask for the same moves again
+        break;
+      std::erase_if(here.places, [&](const auto& place) { return is_at(place, changed); });
+      std::copy_if(places_there->begin(), places_there->end(), std::back_inserter(here.places),
+                   [&](const auto& place) { return is_at(place, changed); });
+      sort_unique(here.places);
+      if (here.places.size() < best.places.size())
+        best = here;
+    }
+    return best.places.size() < places_before;
+  }
+
+  std::vector<bool> points_of_changed(const std::vector<local_id>& before,
+                                      const std::vector<local_id>& after) const {
+    std::vector<bool> changed(mesh_.points().size(), false);
+    for (std::size_t e = 0; e < before.size(); ++e)
+      if (before[e] != after[e])
+        for (const local_id v : mesh_.elements().elements[e])
+          changed[v] = true;
+    return changed;
+  }
+  /// These points, and those that share an element with one.
+  std::vector<bool> points_around(const std::vector<bool>& points) const {
+    std::vector<bool> around = points;
+    for (const auto& element : mesh_.elements().elements)
+      if (std::any_of(element.begin(), element.end(), [&](local_id v) { return points[v]; }))
+        for (const local_id v : element)
+          around[v] = true;
+    return around;
+  }
+  bool is_at(const std::vector<local_id>& place, const std::vector<bool>& points) const {
+    return std::any_of(place.begin(), place.end(), [&](local_id side) {
+      const auto& vertices = sides_.vertices[side];
+      return std::any_of(vertices.begin(), vertices.end(), [&](local_id v) { return points[v]; });
+    });
+  }
+
+  const simplicial_background<D>& mesh_;
+  const side_table<D>& sides_;
   local_repartition<D> repartition_;
   bool are_wanted_;
   int rounds_ = 0;

@@ -65,7 +65,7 @@ public:
   }
   /// Why too many subdomains would have to be merged; empty as long as they would not.
   const std::string& too_many_merges() const { return too_many_merges_; }
-  /// The interface angles of what was last realized.
+  /// The interface angles of what was last realized as a whole.
   interface_angles take_fine_angles() { return std::move(angles_); }
 
   /// For a decomposition that is not gone on with: its finished pieces are removed from the store. Returns
@@ -145,23 +145,34 @@ private:
   }
 
   realized<D> realize_once() {
-    auto made = realize<D>(model_, mesh_, divided_, state_.subdomain_of_element,
-                           static_cast<std::size_t>(state_.merges.subdomains()), state_.size, made_, given_);
+    return counted(realize<D>(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(),
+                              state_.size, made_, given_));
+  }
+  realized<D> realize_part_of(const std::vector<local_id>& subdomain_of_element,
+                              const std::vector<bool>& is_wanted) {
+    return counted(realize_part<D>(model_, mesh_, divided_, subdomain_of_element, subdomains(), state_.size,
+                                   made_, given_, is_wanted));
+  }
+  realized<D> counted(realized<D> made) {
     skeleton_seconds_ += made.summary.seconds;
     made.summary.seconds = skeleton_seconds_;
     return made;
   }
+  std::size_t subdomains() const { return static_cast<std::size_t>(state_.merges.subdomains()); }
 
   realized<D> with_clean_angles(realized<D> made) {
     return repartition_.avoid_small_angles(
         std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
         [&] { return realize_once(); },
+        [&](const auto& subdomain_of_element, const auto& is_wanted) {
+          return realize_part_of(subdomain_of_element, is_wanted);
+        },
         [&](const realized<D>& made_so) { return !boundaries_plan(made_so).empty(); },
         [&](const realized<D>& made_so) { return small_angles_of(made_so); }, account_.seconds);
   }
 
   /// Measures the interface angles; returns the places of those that are small and not forced.
-  std::vector<std::vector<local_id>> small_angles_of(const realized<D>& made) {
+  places_of_angles small_angles_of(const realized<D>& made) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
     auto [angles, places] = given_.run_tasks.once([&] {
@@ -170,7 +181,8 @@ private:
       auto small = detail::places_of_small_angles(made, measured);
       return std::pair(std::move(measured), std::move(small));
     });
-    angles_ = std::move(angles);
+    if (!made.is_part)
+      angles_ = std::move(angles);
     account_.seconds += clock.seconds();
     return std::move(places);
   }
@@ -181,7 +193,7 @@ private:
   Parameters given_;
   decomposition_state state_;
   repartition_rounds<D> repartition_;
-  interface_angles angles_; ///< of what was last realized
+  interface_angles angles_; ///< of what was last realized as a whole
   skeleton_store made_;
   std::shared_ptr<entity_store> pieces_;
   std::set<content_key> finished_; ///< pieces, of all rounds
