@@ -18,6 +18,7 @@
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "files/scratch_folder.hpp"
+#include "pipeline/decomposed_shell.hpp"
 #include "support/refusal.hpp"
 
 #include <BRepAlgoAPI_Cut.hxx>
@@ -43,50 +44,10 @@
 #include <vector>
 
 using namespace dovetail;
+using dovetail::testing::decomposed_shell;
+using dovetail::testing::shell;
 
 namespace {
-
-/// A thin shell: its two faces, and interfaces between them, come near to each other.
-any_geometry shell(double inner_radius) {
-  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(1.0).Shape();
-  return any_geometry(
-      occt_shape_from(BRepAlgoAPI_Cut(ball, BRepPrimAPI_MakeSphere(inner_radius).Shape()).Shape()).model);
-}
-
-/// A decomposed coarse mesh of the shell, before anything is realized.
-struct decomposed_shell {
-  decomposed_shell(double inner_radius, int parts) : decomposed_shell(shell(inner_radius), parts) {}
-  decomposed_shell(const any_geometry& shape, int parts)
-      : model(shape), given(parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = parts})),
-        background(make_background<3>(model, uniform_size(0.2), given)) {
-    const simplicial_mesh<3>& volume = background.mesh.volume;
-    divided.sides = build_sides(volume);
-    divided.beside_surface = elements_beside_surface(background.mesh, divided.sides);
-    const auto simplified = simplify<3>(volume, mesh_duals<3>(volume, sides), simplifier::none{});
-    divided.side_states = simplified.side_states;
-    divided.pieces = decompose<3>(volume, sides, simplified.super_of_element, simplified.graph, volume.tags,
-                                  given.partition_it, parts);
-    want(1e-3); // interfaces stay where they are
-  }
-
-  /// A rule that wants such interface angles; nothing is simplified by it any more.
-  void want(double angle_deg) {
-    given.simplify_by = simplifier::paper{.volume_dihedral_deg = angle_deg, .volume_shape_deg = angle_deg};
-  }
-
-  /// The rounds, of which so large a fraction of the subdomains may be merged.
-  decomposition_rounds<3, any_parameters<3>> rounds(double largest_merged_fraction) {
-    given.options.largest_merged_fraction = largest_merged_fraction;
-    return {model, background.mesh, divided, background.size, given};
-  }
-
-  any_geometry model;
-  any_parameters<3> given;
-  background_result<3> background;
-  divided_background<3> divided;
-  const side_table<3>& sides = divided.sides;
-  decomposition& pieces = divided.pieces;
-};
 
 /// A thin shell where one merge leads to another. How many parts that takes is a matter of the version of
 /// METIS.
@@ -384,110 +345,6 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
   CHECK(taken_back.patches.failures.empty());
   CHECK(taken_back.summary.get("matched_lines") == 0);
   CHECK(taken_back.fine.points == unmatched.fine.points);
-}
-
-TEST_CASE("Interfaces move away from small angles, but not to where something crosses") {
-  decomposed_shell given(0.5, 16);
-  std::set<content_key> loops; // of the patches where interfaces stay
-  given.given.mesh_surface =
-      any_surface_mesher([&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
-        loops.insert(key_maker{}(b.points).key());
-        return remesh::patch_remesher{}(s, b, h);
-      });
-  const auto stays = given.rounds(0.05).realize_boundaries().value();
-  CHECK(stays.summary.get("repartitioned") == 0);
-  CHECK(stays.summary.get("repartition_seconds") == 0);
-
-  given.want(28);
-  given.given.mesh_surface = {};
-  auto rounds = given.rounds(0.05);
-  const auto goes = rounds.realize_boundaries().value();
-  CHECK(goes.summary.get("repartitioned") > 0);
-  CHECK(goes.summary.get("repartition_seconds") > 0);
-  CHECK(goes.subdomain_of_element != stays.subdomain_of_element);
-  const auto small_angles = [](const interface_angles& angles) {
-    return angles.violations.size() - angles.count(violation_cause::forced);
-  };
-  const std::size_t left = small_angles(rounds.take_fine_angles());
-
-  given.given.mesh_surface =
-      any_surface_mesher([&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
-        patch_mesh mesh = remesh::patch_remesher{}(s, b, h);
-        if (!loops.contains(key_maker{}(b.points).key()))
-          mesh.crossings = {{0, 1}};
-        return mesh;
-      });
-  auto refused = given.rounds(0.05);
-  const auto back = refused.realize_boundaries().value();
-  CHECK(back.summary.get("repartition_rounds") == 1);
-  CHECK(back.summary.get("repartitioned") == 0);
-  CHECK(back.subdomain_of_element == stays.subdomain_of_element);
-  CHECK(back.fine.points == stays.fine.points);
-  CHECK(refused.merges().merged() == 0);
-  CHECK(left < small_angles(refused.take_fine_angles()));
-
-  given.given.mesh_surface = {};
-  given.divided.angles.violations.resize(1); // a rule that lets such interfaces be
-  given.divided.angles.violations[0].cause = violation_cause::remeshing;
-  CHECK(given.rounds(0.05).realize_boundaries()->subdomain_of_element == stays.subdomain_of_element);
-}
-
-TEST_CASE("A place is one, however many edges of its lines have a small angle") {
-  decomposed_shell given(0.5, 16);
-  given.background.size = uniform_size(0.05);
-  given.want(50);
-  given.given.options.repartition_locally = false;
-  auto rounds = given.rounds(0.05);
-  const auto made = rounds.realize_boundaries().value();
-  const interface_angles angles = rounds.take_fine_angles();
-  const auto places = detail::places_of_small_angles(made, angles);
-  const auto& first = made.patches.first_triangle;
-  std::set<std::vector<local_id>> expected;
-  std::size_t unforced = 0;
-  for (const angle_violation& v : angles.violations) {
-    if (v.cause == violation_cause::forced)
-      continue;
-    ++unforced;
-    std::set<local_id> sides;
-    for (std::size_t f = 0; f < made.coarse.faces.size(); ++f)
-      for (const local_id triangle : v.sides) {
-        const std::size_t patch = made.coarse.regions.size() + f;
-        if (first[patch] <= triangle && triangle < first[patch + 1])
-          sides.insert(made.coarse.faces[f].side);
-      }
-    expected.insert({sides.begin(), sides.end()});
-  }
-  CHECK(std::vector(expected.begin(), expected.end()) == places);
-  CHECK(3 * places.size() < unforced);
-}
-
-TEST_CASE("Interfaces move away from 32 places, or one per hundred faces, and not from more") {
-  decomposed_shell given(0.5, 16);
-  auto rounds = given.rounds(0.05);
-  const auto made = rounds.realize_boundaries().value();
-  const auto realized_for = [&](std::size_t count, std::size_t faces) {
-    repartition_rounds<3> repartition(given.background.mesh, given.divided, true);
-    realized<3> start = made;
-    start.counts.interface_faces = faces;
-    std::vector<std::vector<local_id>> places;
-    for (std::size_t f = 0; f < count; ++f)
-      places.push_back({made.coarse.faces[f].side});
-    auto subdomains = made.subdomain_of_element;
-    int times = 0;
-    double seconds = 0;
-    repartition.avoid_small_angles(
-        std::move(start), subdomains, 16,
-        [&] {
-          ++times;
-          return made;
-        },
-        [](const auto&) { return true; }, [&](const auto&) { return places; }, seconds);
-    return times;
-  };
-  CHECK(realized_for(32, 100) == 2); // with interfaces moved, and back
-  CHECK(realized_for(33, 100) == 0);
-  CHECK(realized_for(33, 3300) == 2);
-  CHECK(realized_for(34, 3300) == 0);
 }
 
 TEST_CASE("A decomposition that is given up leaves its account, and no pieces") {
