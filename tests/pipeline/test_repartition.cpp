@@ -1,6 +1,7 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/decomposition/skeleton_part.hpp"
+#include "dovetail/parallel/serial.hpp"
 #include "dovetail/pipeline/fine_angles.hpp"
 #include "dovetail/pipeline/realize.hpp"
 #include "dovetail/pipeline/repartition_rounds.hpp"
@@ -48,7 +49,7 @@ places_of_angles places_at(const places_of_angles& places, const side_table<3>& 
 places_of_angles small_angles(const decomposed_shell& given, const realized<3>& made) {
   return detail::places_of_small_angles(
       made, detail::fine_interface_angles(made, given.background.mesh, given.divided, given.background.size,
-                                          wanted_angles_of<3>(given.given.simplify_by)));
+                                          wanted_angles_of<3>(given.given.simplify_by), parallel::serial{}));
 }
 
 } // namespace

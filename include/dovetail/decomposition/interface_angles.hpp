@@ -96,6 +96,12 @@ struct interface_angles {
   }
 };
 
+/// One of so many shares, about equal, of what there is to measure.
+struct angle_share {
+  std::size_t number = 0; ///< from 0
+  std::size_t of = 1;     ///< how many there are
+};
+
 /// The interface angles of a mesh of triangles (D = 2) or tetrahedra (D = 3), with or without CAD: at each
 /// ridge those of the elements between two sides that are fixed or interfaces add up to a dihedral. One
 /// between fixed sides that themselves include less than is wanted is forced. `sides` in the result are sides
@@ -121,10 +127,16 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 /// \param refused one per triangle, or empty
 /// \param half_edges those to measure, or empty
 /// \param skeleton_is `mesh_state::valid` skips the checks of a skeleton known to be valid
+/// \param share which triangles and edges to measure, as one of several tasks
 interface_angles measure_skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
                                          std::span<const std::uint8_t> refused = {},
                                          std::span<const std::uint32_t> half_edges = {},
-                                         mesh_state skeleton_is = mesh_state::unknown);
+                                         mesh_state skeleton_is = mesh_state::unknown,
+                                         angle_share share = {});
+
+/// What was measured in all shares, as it is without: least angles that are equal are those of the first
+/// triangles and edges. n log n in the violations.
+interface_angles joined_shares(std::span<const interface_angles> shares);
 
 } // namespace dovetail
 

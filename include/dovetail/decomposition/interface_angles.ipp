@@ -27,6 +27,12 @@ namespace dovetail {
 
 namespace detail {
 
+inline void sort_violations(std::vector<angle_violation>& violations) {
+  sort_all(violations, [](const angle_violation& a, const angle_violation& b) {
+    return std::tuple(a.angle_deg, a.sides, a.edge) < std::tuple(b.angle_deg, b.sides, b.edge);
+  });
+}
+
 /// What is the same wherever angles are measured: the least ones and the list of those that are too small.
 class angle_collector {
 public:
@@ -55,9 +61,7 @@ public:
   bool is_small_dihedral(double angle) const { return angle < wanted_.dihedral_deg - rounding_deg; }
 
   interface_angles take() {
-    sort_all(found.violations, [](const angle_violation& a, const angle_violation& b) {
-      return std::tuple(a.angle_deg, a.sides, a.edge) < std::tuple(b.angle_deg, b.sides, b.edge);
-    });
+    sort_violations(found.violations);
     return std::move(found);
   }
 
@@ -220,28 +224,41 @@ public:
       require_triangles();
   }
 
-  interface_angles run() {
-    for (std::size_t t = 0; t < fine_.sides.size(); ++t)
+  /// The triangles of a share follow each other; edges are those of points whose numbers leave the share's
+  /// as their remainder, so that all shares have some of each patch.
+  interface_angles run(const angle_share& share) {
+    const std::size_t triangles = fine_.sides.size();
+    for (std::size_t t = triangles * share.number / share.of; t < triangles * (share.number + 1) / share.of;
+         ++t)
       if (const auto id = static_cast<local_id>(t); !is_fixed(id)) {
         ++collector_.found.interface_faces;
         collector_.add_face(id, corners(span_of(fine_.points), fine_.sides[t]), cause_of(id, id));
       }
-    const bool all = half_edges_.empty();
-    const auto half_edge = [&](std::size_t i) {
-      return all ? static_cast<std::uint32_t>(i) : half_edges_[i];
+    const auto shares = static_cast<local_id>(share.of), number = static_cast<local_id>(share.number);
+    const auto edge_of = [&](std::uint32_t h) {
+      return sorted_vertices(pick(fine_.sides[h / 3], numbering::sides<2>[h % 3]));
     };
+    std::vector<std::uint32_t> its;
+    const auto take = [&](std::uint32_t h) {
+      if (edge_of(h)[0] % shares == number)
+        its.push_back(h);
+    };
+    std::for_each(half_edges_.begin(), half_edges_.end(), take);
+    if (half_edges_.empty())
+      for (std::size_t h = 0; h < 3 * triangles; ++h)
+        take(static_cast<std::uint32_t>(h));
     std::vector<std::uint32_t> around;
     for_each_group<2>(
-        all ? fine_.sides.size() * 3 : half_edges_.size(), fine_.points.size(),
+        its.size(), fine_.points.size() / share.of + 1,
         [&](std::size_t i) {
-          const std::uint32_t h = half_edge(i);
-          return sorted_vertices(pick(fine_.sides[h / 3], numbering::sides<2>[h % 3]));
+          const auto edge = edge_of(its[i]);
+          return std::array{edge[0] / shares, edge[1]};
         },
         [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> members) {
           around.clear();
           for (const std::uint32_t i : members)
-            around.push_back(half_edge(i));
-          measure_dihedrals(edge, around);
+            around.push_back(its[i]);
+          measure_dihedrals({edge[0] * shares + number, edge[1]}, around);
         });
     return collector_.take();
   }
@@ -381,8 +398,28 @@ DOVETAIL_INLINE interface_angles measure_skeleton_angles(const fine_skeleton& fi
                                                          const wanted_angles& wanted,
                                                          std::span<const std::uint8_t> refused,
                                                          std::span<const std::uint32_t> half_edges,
-                                                         mesh_state skeleton_is) {
-  return detail::skeleton_angles(fine, wanted, refused, half_edges, skeleton_is).run();
+                                                         mesh_state skeleton_is, angle_share share) {
+  return detail::skeleton_angles(fine, wanted, refused, half_edges, skeleton_is).run(share);
+}
+
+DOVETAIL_INLINE interface_angles joined_shares(std::span<const interface_angles> shares) {
+  interface_angles joined;
+  const auto keep_smaller = [](least_angle& least, const least_angle& other) {
+    const auto order = [](const least_angle& angle) {
+      return std::tuple(angle.angle_deg, angle.edge, angle.sides);
+    };
+    if (order(other) < order(least))
+      least = other;
+  };
+  for (const interface_angles& share : shares) {
+    joined.interface_faces += share.interface_faces;
+    keep_smaller(joined.face_angle, share.face_angle);
+    keep_smaller(joined.interface_dihedral, share.interface_dihedral);
+    keep_smaller(joined.surface_dihedral, share.surface_dihedral);
+    append(joined.violations, share.violations);
+  }
+  detail::sort_violations(joined.violations);
+  return joined;
 }
 
 #ifdef DOVETAIL_COMPILED

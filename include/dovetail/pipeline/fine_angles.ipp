@@ -5,6 +5,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/decomposition/forced_angles.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/fine_angles.hpp"
 #include "dovetail/pipeline/realize.hpp"
@@ -35,7 +36,10 @@ DOVETAIL_INLINE std::vector<std::uint32_t> half_edges_that_matter(const realized
 DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skeleton,
                                                        const simplicial_background<3>&,
                                                        const divided_background<3>& divided,
-                                                       const any_sizing& size, const wanted_angles& wanted) {
+                                                       const any_sizing& size, const wanted_angles& wanted,
+                                                       const any_executor& run,
+                                                       const progress& on_progress) {
+  constexpr std::size_t triangles_per_task = 200'000; // some 0.1 s
   const auto& first = skeleton.patches.first_triangle;
   const fine_skeleton& fine = skeleton.fine;
   std::vector<std::uint8_t> refused(fine.sides.size(), 0);
@@ -45,8 +49,16 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skelet
       const std::size_t patch = skeleton.coarse.regions.size() + f;
       std::fill(refused.begin() + first[patch], refused.begin() + first[patch + 1], 1);
     }
-  auto angles =
-      measure_skeleton_angles(fine, wanted, refused, half_edges_that_matter(skeleton), mesh_state::valid);
+  const auto matter = half_edges_that_matter(skeleton);
+  const std::size_t tasks = 1 + fine.sides.size() / triangles_per_task;
+  const auto shares = values_of(map_tasks(run, tasks,
+                                          [&](std::size_t task) {
+                                            return measure_skeleton_angles(fine, wanted, refused, matter,
+                                                                           mesh_state::valid, {task, tasks});
+                                          },
+                                          run_options{.on_progress = on_progress, .stage = "intersection"}),
+                                "the measuring of interface angles");
+  auto angles = joined_shares(shares);
   find_forced(angles, fine.sides, cad_of(fine), size, wanted);
   return angles;
 }
@@ -54,7 +66,8 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skelet
 DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<2>& skeleton,
                                                        const simplicial_background<2>& mesh,
                                                        const divided_background<2>& divided,
-                                                       const any_sizing&, const wanted_angles& wanted) {
+                                                       const any_sizing&, const wanted_angles& wanted,
+                                                       const any_executor&, const progress&) {
   const auto leaves = [&](local_id side, local_id vertex) {
     const auto& ends = divided.sides.vertices[side];
     const local_id line = find_line(skeleton.lines.keys, ends[0], ends[1]);

@@ -175,16 +175,14 @@ private:
   places_of_angles small_angles_of(const realized<D>& made) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
-    auto [angles, places] = given_.run_tasks.once([&] {
-      auto measured = detail::fine_interface_angles(made, mesh_, divided_, size(),
-                                                    wanted_angles_of<D>(given_.simplify_by));
-      auto small = detail::places_of_small_angles(made, measured);
-      return std::pair(std::move(measured), std::move(small));
-    });
+    auto angles = detail::fine_interface_angles(made, mesh_, divided_, size(),
+                                                wanted_angles_of<D>(given_.simplify_by), given_.run_tasks,
+                                                given_.options.on_progress.only_stopping());
+    auto places = detail::places_of_small_angles(made, angles);
     if (!made.is_part)
       angles_ = std::move(angles);
     account_.seconds += clock.seconds();
-    return std::move(places);
+    return places;
   }
 
   const any_geometry& model_;
