@@ -27,6 +27,7 @@ struct volume_cell {
   double volume_inside = 0;             ///< by the same samples
   double error = 0;                     ///< of the quadrature, or of what the field's bound allows
   double variance = 0;                  ///< squared error of the sampled part inside, for cut cells
+  double least_size = 0;                ///< a lower bound of the size in the cube or in one around it, or 0
 };
 
 /// A fixed pseudo-random sequence in [0, 1), so that samples do not line up with axis-parallel surfaces.
@@ -79,7 +80,10 @@ void integrate(volume_cell& cell, const inside_surface& inside, const H& h, samp
   const double spread = std::sqrt(std::max(0.0, squares - all * all));
   // The midpoints' spread over a linear h^-3 is not an error; what is left is of second order in it.
   const double quadrature = volume * std::min(spread, 2 * spread * spread / all);
-  const double bound = dovetail::smallest_size_in(h, cell.box);
+  // The bound of a larger cube holds here as well, and only one that raises doubts is looked at closer.
+  if (!(cell.least_size > 0 && cell.least_size >= suspicious_ratio * least))
+    cell.least_size = dovetail::smallest_size_in(h, cell.box);
+  const double bound = cell.least_size;
   cell.error = assumed_error<3>(quadrature, cell.integral, volume, least, bound);
   if (!(bound > 0)) {
     if (norm(extent) > largest_unsampled)
@@ -102,6 +106,7 @@ void append_children(const volume_cell& parent, const inside_surface& inside, co
   });
   for (unsigned k = 0; k < 8; ++k) {
     volume_cell child{octant(parent.box, k), std::move(triangles[k])};
+    child.least_size = parent.least_size;
     if (child.triangles.empty() && !parent.triangles.empty() && !inside(child.box.center()))
       continue;
     integrate(child, inside, h, random, largest_unsampled);
