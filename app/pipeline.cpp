@@ -54,6 +54,13 @@ mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
   return plan_background<D>(geometry, size, composed(policies, options));
 }
 
+template <int D>
+std::function<mesh_plan(double factor)>
+plan_multiples_of(const any_geometry& geometry, const any_sizing& size, const policies_of<D>& policies,
+                  const generate_options& options) {
+  return plan_multiples<D>(geometry, size, composed(policies, options));
+}
+
 template any_parameters<2> composed(const policies_of<2>&, const generate_options&);
 template any_parameters<3> composed(const policies_of<3>&, const generate_options&);
 template background_result<2> make_background_mesh(const any_geometry&, const any_sizing&,
@@ -68,5 +75,9 @@ template mesh_plan plan_generation(const any_geometry&, const any_sizing&, const
                                    const generate_options&);
 template mesh_plan plan_generation(const any_geometry&, const any_sizing&, const policies_of<3>&,
                                    const generate_options&);
+template std::function<mesh_plan(double)> plan_multiples_of(const any_geometry&, const any_sizing&,
+                                                            const policies_of<2>&, const generate_options&);
+template std::function<mesh_plan(double)> plan_multiples_of(const any_geometry&, const any_sizing&,
+                                                            const policies_of<3>&, const generate_options&);
 
 } // namespace dovetail::app

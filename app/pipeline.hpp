@@ -6,6 +6,8 @@
 #include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/generate.hpp"
 
+#include <functional>
+
 namespace dovetail::app {
 
 /// The policies of a run of D.
@@ -48,5 +50,10 @@ generated<3> generate_by_fine_partition(const any_geometry& geometry, const any_
 template <int D>
 mesh_plan plan_generation(const any_geometry& geometry, const any_sizing& size,
                           const policies_of<D>& policies, const generate_options& options);
+/// The same for the size times any factor.
+template <int D>
+std::function<mesh_plan(double factor)>
+plan_multiples_of(const any_geometry& geometry, const any_sizing& size, const policies_of<D>& policies,
+                  const generate_options& options);
 
 } // namespace dovetail::app

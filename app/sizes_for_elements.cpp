@@ -20,6 +20,7 @@ template <int D>
 size_scale scale_for_elements(const model_source& source, double elements, const policies_of<D>& policies,
                               const generate_options& options) {
   constexpr double close = 0.03;
+  const auto plan_times = plan_multiples_of<D>(source.geometry, source.size, policies, options);
   size_scale best;
   double factor = 1, least_off = std::numeric_limits<double>::infinity();
   // The number goes with a power of the size but for gradation and walls; what small features need it does
@@ -27,8 +28,7 @@ size_scale scale_for_elements(const model_source& source, double elements, const
   for (int step = 0; step < 4 && least_off > close; ++step) {
     double predicted = 0;
     try {
-      predicted = plan_generation<D>(source.geometry, scaled_sizes(source, factor), policies, options)
-                      .predicted_elements;
+      predicted = plan_times(factor).predicted_elements;
     } catch (const sizing_error&) { // larger than the model, or smaller than any machine can hold
       if (step == 0 || factor < best.factor)
         throw;

@@ -14,6 +14,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace dovetail::app {
@@ -66,21 +67,25 @@ generate_result generate_mesh_from(const background_result<3>& background, const
   return result;
 }
 
+std::function<mesh_plan(double)> plans_of(int dimension, double size) {
+  return [dimension, size](double factor) {
+    mesh_plan plan;
+    plan.predicted_elements = 500 / std::pow(factor * size, dimension);
+    return plan;
+  };
+}
+
 template <>
-mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const policies_of<3>&,
-                          const generate_options&) {
-  mesh_plan plan;
-  plan.predicted_elements = 500 / std::pow(size({}), 3);
-  return plan;
+std::function<mesh_plan(double)> plan_multiples_of(const any_geometry&, const any_sizing& size,
+                                                   const policies_of<3>&, const generate_options&) {
+  return plans_of(3, size({}));
 }
 
 /// Of dimension 2 there is only a plan.
 template <>
-mesh_plan plan_generation(const any_geometry&, const any_sizing& size, const policies_of<2>&,
-                          const generate_options&) {
-  mesh_plan plan;
-  plan.predicted_elements = 500 / std::pow(size({}), 2);
-  return plan;
+std::function<mesh_plan(double)> plan_multiples_of(const any_geometry&, const any_sizing& size,
+                                                   const policies_of<2>&, const generate_options&) {
+  return plans_of(2, size({}));
 }
 template <>
 background_result<2> make_background_mesh(const any_geometry&, const any_sizing&, const policies_of<2>&,

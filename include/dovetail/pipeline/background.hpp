@@ -139,6 +139,22 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, 
   return plan_background<D>(model, size, bind_parameters<D>(given));
 }
 
+/// A function that gives the plan for a field times a factor, as `plan_background` does, which costs little
+/// beyond the first: all are of one first surface mesh, and in D = 3 of one integral of sizes. It throws
+/// `sizing_error` where the factor makes sizes that cannot be used, or too many elements. The model must
+/// outlive it. Throws what `plan_background` throws.
+/// \param model the solids (D = 3) or faces (D = 2) to mesh
+/// \param size edge lengths, in the units of the model
+/// \param given policies and options
+template <int D = 3, bound_parameters<D> Parameters>
+std::function<mesh_plan(double factor)> plan_multiples(const any_geometry& model, const erased_sizing& size,
+                                                       const Parameters& given);
+template <int D = 3, class Parameters>
+std::function<mesh_plan(double factor)> plan_multiples(const any_geometry& model, const erased_sizing& size,
+                                                       const Parameters& given) {
+  return plan_multiples<D>(model, size, bind_parameters<D>(given));
+}
+
 /// Makes a planned background mesh at the size `coarse`, its bounds, and the children of its summary, by this
 /// executor.
 template <int D>

@@ -24,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -265,13 +266,20 @@ inline double share_of_elements(const mesh_plan& plan, bool improved) {
   return (improved ? left_by_improver : 1.0) * (1 - std::min(beside, 0.1));
 }
 
+/// The elements by the integral of the sizes alone, on a first surface.
 template <int D, bound_parameters<D> Parameters>
-mesh_plan plan_of_surface(const any_geometry& model, const erased_sizing& size,
-                          const background::coarse_surface_result& first, const Parameters& given) {
+element_prediction predict_on_surface(const any_geometry& model, const erased_sizing& size,
+                                      const background::coarse_surface_result& first,
+                                      const Parameters& given) {
+  return predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
+                         elements_per_inverse_cubed_size(given.mesh_it));
+}
+
+template <int D, bound_parameters<D> Parameters>
+mesh_plan plan_of_prediction(const any_geometry& model, const erased_sizing& size,
+                             const background::coarse_surface_result& first, element_prediction predicted,
+                             const Parameters& given) {
   const generate_options& options = given.options;
-  element_prediction predicted =
-      predict_mesh<D>(first.surface, model.topology(), allowed_size<D>(size, first.bounds),
-                      elements_per_inverse_cubed_size(given.mesh_it));
   if constexpr (D == 3)
     predicted.elements += elements_beside_surface(first, model.topology(), size,
                                                   elements_per_inverse_cubed_size(given.mesh_it));
@@ -293,15 +301,24 @@ mesh_plan plan_of_surface(const any_geometry& model, const erased_sizing& size,
   return plan;
 }
 
+/// A surface as coarse as sources and curvature allow.
 template <int D, bound_parameters<D> Parameters>
-mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
+background::coarse_surface_result first_surface(const any_geometry& model, const erased_sizing& size,
+                                                const Parameters& given) {
   const generate_options& options = given.options;
   constexpr double as_coarse_as_possible = 1e12; // times any size that is not refused
   options.on_progress("planning", 0, 0);
-  const auto first = surface_without_crossings(
-      model, coarse_size(size, as_coarse_as_possible, model.bounds()), given.run_tasks, given.mesh_surface,
-      options.refinement_rounds, options.on_progress);
-  return given.run_tasks.once([&] { return plan_of_surface<D>(model, size, first, given); });
+  return surface_without_crossings(model, coarse_size(size, as_coarse_as_possible, model.bounds()),
+                                   given.run_tasks, given.mesh_surface, options.refinement_rounds,
+                                   options.on_progress);
+}
+
+template <int D, bound_parameters<D> Parameters>
+mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
+  const auto first = first_surface<D>(model, size, given);
+  return given.run_tasks.once([&] {
+    return plan_of_prediction<D>(model, size, first, predict_on_surface<D>(model, size, first, given), given);
+  });
 }
 
 } // namespace detail
@@ -309,6 +326,31 @@ mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, c
 template <int D, bound_parameters<D> Parameters>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
   return detail::plan_of_usable<D>(model, detail::usable_size<D>(model, size, given), given);
+}
+
+template <int D, bound_parameters<D> Parameters>
+std::function<mesh_plan(double factor)>
+plan_multiples(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
+  const auto checked = detail::usable_size<D>(model, size, given);
+  const auto first = std::make_shared<const background::coarse_surface_result>(
+      detail::first_surface<D>(model, checked, given));
+  const auto [elements, relative_error] = given.run_tasks.once([&] {
+    const auto predicted = detail::predict_on_surface<D>(model, checked, *first, given);
+    return std::pair(predicted.elements, predicted.relative_error);
+  });
+  return [&model, size, given, first, elements = elements, error = relative_error](double factor) {
+    const auto scaled_size = detail::usable_size<D>(model, scaled(size, factor), given);
+    return given.run_tasks.once([&] {
+      element_prediction predicted;
+      if constexpr (D == 3) { // the cells of the integral are those of any multiple of the field
+        predicted.elements = elements / (factor * factor * factor);
+        predicted.relative_error = error;
+      } else {
+        predicted = detail::predict_on_surface<D>(model, scaled_size, *first, given);
+      }
+      return detail::plan_of_prediction<D>(model, scaled_size, *first, predicted, given);
+    });
+  };
 }
 
 template <int D, bound_parameters<D> Parameters>
@@ -401,6 +443,12 @@ template mesh_plan plan_background<2>(const any_geometry& model, const erased_si
                                       const any_parameters<2>& given);
 template mesh_plan plan_background<3>(const any_geometry& model, const erased_sizing& size,
                                       const any_parameters<3>& given);
+template std::function<mesh_plan(double)> plan_multiples<2>(const any_geometry& model,
+                                                            const erased_sizing& size,
+                                                            const any_parameters<2>& given);
+template std::function<mesh_plan(double)> plan_multiples<3>(const any_geometry& model,
+                                                            const erased_sizing& size,
+                                                            const any_parameters<3>& given);
 template background_result<2> make_background<2>(const any_geometry& model, const erased_sizing& size,
                                                  const any_parameters<2>& given);
 template background_result<2> make_background<2>(const any_geometry& model, const erased_sizing& size,
