@@ -145,6 +145,38 @@ TEST_CASE("angles measured on the skeleton are those measured through the elemen
   }
 }
 
+TEST_CASE("angles measured in shares are those of the whole") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const auto mesh = shuffled(jittered_cubes(4, 0.15, seed), seed);
+    const auto fine = skeleton_of(mesh, build_sides(mesh), random_parts(mesh, 4, seed));
+    const auto whole = measure_skeleton_angles(fine, {50, 50});
+    REQUIRE(!whole.violations.empty());
+    for (const std::size_t shares : {1, 2, 7}) {
+      std::vector<interface_angles> of_shares;
+      std::size_t with_violations = 0;
+      for (std::size_t k = 0; k < shares; ++k) {
+        of_shares.push_back(
+            measure_skeleton_angles(fine, {50, 50}, {}, {}, mesh_state::valid, {.number = k, .of = shares}));
+        with_violations += of_shares.back().violations.empty() ? 0 : 1;
+      }
+      CHECK(with_violations == shares);
+      CHECK(encoded(joined_shares(of_shares)) == encoded(whole));
+    }
+  }
+}
+
+TEST_CASE("of shares with equal least angles the first triangles and edges are named") {
+  interface_angles a, b;
+  a.face_angle = {30, {7, no_id}};
+  b.face_angle = {30, {5, no_id}};
+  a.interface_dihedral = {20, {1, 2}, {3, 4}};
+  b.interface_dihedral = {20, {0, 9}, {3, 8}};
+  const auto joined = joined_shares(std::array{a, b});
+  CHECK(joined.face_angle.sides[0] == 5);
+  CHECK(joined.interface_dihedral.edge == std::array<local_id, 2>{3, 4});
+  CHECK(joined.surface_dihedral.angle_deg == 360);
+}
+
 TEST_CASE("faces and dihedrals have thresholds of their own") {
   const auto mesh = jittered_cubes(3, 0.15, 1);
   const auto sides = build_sides(mesh);

@@ -7,6 +7,7 @@
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/none.hpp"
+#include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "files/scratch_folder.hpp"
 #include "solid_meshes.hpp"
@@ -23,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 using namespace dovetail;
 
@@ -298,6 +300,27 @@ TEST_CASE("sizes that predict more elements than wanted are enlarged: in the pla
   options.store.reset();
   options.enlarged_above = 1e7;
   CHECK(plan_background<3>(model, uniform_size(0.02), policies.with_options(options)).size_scale == 1);
+}
+
+TEST_CASE("multiples of a field are planned as they are one by one") {
+  const auto model = any_geometry(occt_shape_from(drilled_block()).model);
+  const erased_sizing size(source_field(0.1, {point_source({1, 1, 0.5}, 0.1, 0.5, 0.03)}));
+  const auto check = [&](const auto dimension) {
+    constexpr int d = decltype(dimension)::value;
+    const auto plan_times = plan_multiples<d>(model, size, parameters<>{});
+    for (const double factor : {1.0, 0.5, 2.0}) {
+      const mesh_plan one = plan_background<d>(model, scaled(size, factor), parameters<>{});
+      const mesh_plan of_many = plan_times(factor);
+      CHECK(of_many.predicted_elements == doctest::Approx(one.predicted_elements).epsilon(0.02));
+      CHECK(of_many.relative_error == doctest::Approx(one.relative_error).epsilon(0.2));
+      CHECK(of_many.subdomains == one.subdomains);
+    }
+    CHECK(plan_times(0.5).predicted_elements > 3 * plan_times(1).predicted_elements);
+    CHECK_THROWS_AS(plan_times(1000), sizing_error); // larger than the model
+    CHECK_THROWS_AS(plan_times(1e-12), sizing_error);
+  };
+  check(std::integral_constant<int, 3>{});
+  check(std::integral_constant<int, 2>{});
 }
 
 TEST_CASE(

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <numbers>
 #include <random>
+#include <utility>
 
 using namespace dovetail;
 
@@ -174,6 +175,33 @@ TEST_CASE("a tiny source in a large box is not missed, and one outside does not 
   const auto p = predict_volume_elements(mesh, h, {.density = 1});
   MESSAGE("cells ", p.cells, ", relative error ", p.elements / exact - 1);
   CHECK(p.elements == doctest::Approx(exact).epsilon(0.05));
+}
+
+TEST_CASE("the least size of a cube is asked for only where that of a larger one raises doubts") {
+  struct counted {
+    double operator()(vec3 p) const { return field(p); }
+    double smallest_size_in(const box3& box) const {
+      ++*asked;
+      return field.smallest_size_in(box);
+    }
+    source_field field;
+    int* asked;
+  };
+  simplicial_mesh<2> mesh;
+  append_box(mesh, {0, 0, 0}, {10, 10, 10});
+  const auto predicted = [&](double smallest) {
+    int asked = 0;
+    const counted h{source_field(1.0, {point_source({3, 3, 3}, 0.5, 2, smallest)}), &asked};
+    const auto p = predict_volume_elements(mesh, h, {.density = 1});
+    CHECK(p.elements == predict_volume_elements(mesh, h.field, {.density = 1}).elements);
+    return std::pair(asked, p.cells);
+  };
+  const auto [even, cells] = predicted(0.9);
+  CHECK(even == 8); // of the largest
+  CHECK(cells > 1000);
+  const auto [graded, more] = predicted(0.1);
+  CHECK(graded > 1);
+  CHECK(static_cast<std::size_t>(graded) < more);
 }
 
 TEST_CASE("sizes too small for any number predict no number, and the prediction ends") {

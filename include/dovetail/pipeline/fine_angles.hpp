@@ -2,8 +2,8 @@
 /// The interface angles of a realized decomposition, and where small ones are.
 #pragma once
 
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/pipeline/divide.hpp"

@@ -37,8 +37,7 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skelet
                                                        const simplicial_background<3>&,
                                                        const divided_background<3>& divided,
                                                        const any_sizing& size, const wanted_angles& wanted,
-                                                       const any_executor& run,
-                                                       const progress& on_progress) {
+                                                       const any_executor& run, const progress& on_progress) {
   constexpr std::size_t triangles_per_task = 200'000; // some 0.1 s
   const auto& first = skeleton.patches.first_triangle;
   const fine_skeleton& fine = skeleton.fine;
@@ -51,13 +50,14 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skelet
     }
   const auto matter = half_edges_that_matter(skeleton);
   const std::size_t tasks = 1 + fine.sides.size() / triangles_per_task;
-  const auto shares = values_of(map_tasks(run, tasks,
-                                          [&](std::size_t task) {
-                                            return measure_skeleton_angles(fine, wanted, refused, matter,
-                                                                           mesh_state::valid, {task, tasks});
-                                          },
-                                          run_options{.on_progress = on_progress, .stage = "intersection"}),
-                                "the measuring of interface angles");
+  const auto shares = values_of(
+      map_tasks(
+          run, tasks,
+          [&](std::size_t task) {
+            return measure_skeleton_angles(fine, wanted, refused, matter, mesh_state::valid, {task, tasks});
+          },
+          run_options{.on_progress = on_progress, .stage = "intersection"}),
+      "the measuring of interface angles");
   auto angles = joined_shares(shares);
   find_forced(angles, fine.sides, cad_of(fine), size, wanted);
   return angles;

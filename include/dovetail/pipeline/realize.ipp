@@ -163,9 +163,8 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
                     const Parameters& given) {
   const stopwatch clock;
   auto coarse = detail::skeleton_between(mesh, divided, subdomain_of_element);
-  auto result =
-      detail::realize_skeleton<D>(model, mesh, divided, std::move(coarse), std::move(subdomain_of_element),
-                                  subdomains, size, made, given);
+  auto result = detail::realize_skeleton<D>(model, mesh, divided, std::move(coarse),
+                                            std::move(subdomain_of_element), subdomains, size, made, given);
   result.summary.seconds = clock.seconds();
   return result;
 }
@@ -176,11 +175,10 @@ realized<D> realize_part(const any_geometry& model, const simplicial_background<
                          std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                          const Parameters& given, const std::vector<bool>& is_wanted) {
   const stopwatch clock;
-  auto coarse = part_at_points(detail::skeleton_between(mesh, divided, subdomain_of_element), mesh.surface,
-                               is_wanted);
-  auto result =
-      detail::realize_skeleton<D>(model, mesh, divided, std::move(coarse), std::move(subdomain_of_element),
-                                  subdomains, size, made, given);
+  auto coarse =
+      part_at_points(detail::skeleton_between(mesh, divided, subdomain_of_element), mesh.surface, is_wanted);
+  auto result = detail::realize_skeleton<D>(model, mesh, divided, std::move(coarse),
+                                            std::move(subdomain_of_element), subdomains, size, made, given);
   result.is_part = true;
   result.summary.seconds = clock.seconds();
   return result;

@@ -145,8 +145,8 @@ private:
   }
 
   realized<D> realize_once() {
-    return counted(realize<D>(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(),
-                              state_.size, made_, given_));
+    return counted(realize<D>(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(), state_.size,
+                              made_, given_));
   }
   realized<D> realize_part_of(const std::vector<local_id>& subdomain_of_element,
                               const std::vector<bool>& is_wanted) {
@@ -175,9 +175,9 @@ private:
   places_of_angles small_angles_of(const realized<D>& made) {
     const stopwatch clock;
     given_.options.on_progress("intersection", 0, 0);
-    auto angles = detail::fine_interface_angles(made, mesh_, divided_, size(),
-                                                wanted_angles_of<D>(given_.simplify_by), given_.run_tasks,
-                                                given_.options.on_progress.only_stopping());
+    auto angles =
+        detail::fine_interface_angles(made, mesh_, divided_, size(), wanted_angles_of<D>(given_.simplify_by),
+                                      given_.run_tasks, given_.options.on_progress.only_stopping());
     auto places = detail::places_of_small_angles(made, angles);
     if (!made.is_part)
       angles_ = std::move(angles);

@@ -8,6 +8,7 @@
 #include "dovetail/mesher/any_line_keeping_mesher.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/pipeline/background.hpp"
+#include "dovetail/pipeline/surface_without_crossings.hpp"
 #include "dovetail/pipeline/whole_background.hpp"
 
 #include <cstddef>
