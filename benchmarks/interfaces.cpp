@@ -68,11 +68,10 @@ std::size_t measure(const std::string& name, const sized_model& given, double el
                                        .with_mesher(mesher::tetgen{})
                                        .with_partitioner(partition::metis{})
                                        .with_executor(parallel::processes{}));
+  const auto plan_times = plan_multiples<3>(given.model, given.size, policies);
   double scale = 1;
   for (int step = 0; step < 3; ++step)
-    scale *= std::cbrt(
-        plan_background<3>(given.model, keep_bounds(scaled(given.size, scale)), policies).predicted_elements /
-        elements);
+    scale *= std::cbrt(plan_times(scale).predicted_elements / elements);
   const auto background = make_background<3>(given.model, keep_bounds(scaled(given.size, scale)), policies);
   const auto divided = divide<3>(background.mesh, background.size, background.plan.subdomains, policies);
   const stopwatch clock;

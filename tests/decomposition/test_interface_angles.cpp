@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <numeric>
 #include <vector>
 
 using namespace dovetail;
@@ -151,7 +152,10 @@ TEST_CASE("angles measured in shares are those of the whole") {
     const auto fine = skeleton_of(mesh, build_sides(mesh), random_parts(mesh, 4, seed));
     const auto whole = measure_skeleton_angles(fine, {50, 50});
     REQUIRE(!whole.violations.empty());
+    std::vector<std::uint32_t> every(3 * fine.sides.size());
+    std::iota(every.begin(), every.end(), 0U);
     for (const std::size_t shares : {1, 2, 7}) {
+      const auto half_edges = half_edges_of_shares(fine, every, shares);
       std::vector<interface_angles> of_shares;
       std::size_t with_violations = 0;
       for (std::size_t k = 0; k < shares; ++k) {
@@ -161,8 +165,20 @@ TEST_CASE("angles measured in shares are those of the whole") {
       }
       CHECK(with_violations == shares);
       CHECK(encoded(joined_shares(of_shares)) == encoded(whole));
+      for (std::size_t k = 0; k < shares; ++k)
+        CHECK(encoded(measure_skeleton_angles(fine, {50, 50}, {}, half_edges[k], mesh_state::valid,
+                                              {.number = k, .of = shares})) == encoded(of_shares[k]));
     }
   }
+}
+
+TEST_CASE("a share that there is not is refused") {
+  CHECK_THROWS_AS(
+      measure_skeleton_angles(tent(), {30, 30}, {}, {}, mesh_state::unknown, {.number = 2, .of = 2}),
+      usage_error);
+  CHECK_THROWS_AS(
+      measure_skeleton_angles(tent(), {30, 30}, {}, {}, mesh_state::unknown, {.number = 0, .of = 0}),
+      usage_error);
 }
 
 TEST_CASE("of shares with equal least angles the first triangles and edges are named") {

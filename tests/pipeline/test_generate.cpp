@@ -308,7 +308,7 @@ TEST_CASE("multiples of a field are planned as they are one by one") {
   const auto check = [&](const auto dimension) {
     constexpr int d = decltype(dimension)::value;
     const auto plan_times = plan_multiples<d>(model, size, parameters<>{});
-    for (const double factor : {1.0, 0.5, 2.0}) {
+    for (const double factor : {1.0, 0.5, 2.0, 8.0}) { // the last is beyond the largest coarse size
       const mesh_plan one = plan_background<d>(model, scaled(size, factor), parameters<>{});
       const mesh_plan of_many = plan_times(factor);
       CHECK(of_many.predicted_elements == doctest::Approx(one.predicted_elements).epsilon(0.02));

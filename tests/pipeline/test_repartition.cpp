@@ -137,7 +137,7 @@ TEST_CASE("Interfaces move away from 32 places, or one per hundred faces, and no
     repartition_rounds<3> repartition(given.background.mesh, given.divided, true);
     realized<3> start = made;
     start.counts.interface_faces = faces;
-    std::vector<std::vector<local_id>> places;
+    places_of_angles places;
     for (std::size_t f = 0; f < count; ++f)
       places.push_back({made.coarse.faces[f].side});
     auto subdomains = made.subdomain_of_element;
@@ -217,8 +217,8 @@ TEST_CASE("A part has the small angles of the whole at the points inside of it")
   std::size_t compared = 0;
   for (const vec3 center : {vec3{0.75, 0, 0}, vec3{0, -0.9, 0.1}, vec3{0.2, 0.3, -0.6}}) {
     const auto part =
-        realize_part<3>(given.model, given.background.mesh, given.divided, subdomain_of_element, subdomains,
-                        size, store, bind_parameters<3>(given.given), points_near(given, center, 0.6));
+        realize_part(given.model, given.background.mesh, given.divided, subdomain_of_element, subdomains,
+                     size, store, bind_parameters<3>(given.given), points_near(given, center, 0.6));
     CHECK(part.is_part);
     CHECK(2 * part.fine.sides.size() < whole.fine.sides.size());
     const auto inside = points_near(given, center, 0.2);
@@ -266,9 +266,49 @@ TEST_CASE("What is better around the changes but not as a whole is taken back") 
         seconds);
     CHECK(parts > 0);
     CHECK(made.subdomain_of_element == subdomains);
-    return std::pair(wholes, subdomains != start.subdomain_of_element);
+    const bool is_changed = subdomains != start.subdomain_of_element;
+    CHECK((made.counts.repartitioned > 0) == is_changed);
+    CHECK(made.counts.repartition_rounds == parts);
+    return std::pair(wholes, is_changed);
   };
   CHECK(repartitioned(false, 0) == std::pair(1, true));
   CHECK(repartitioned(false, 2) == std::pair(2, false));
   CHECK(repartitioned(true, 0) == std::pair(2, false));
+}
+
+TEST_CASE("A search that ends where something crosses is the last one; its best round stays") {
+  decomposed_shell given(0.5, 16);
+  auto rounds = given.rounds(0.05);
+  const auto start = rounds.realize_boundaries().value();
+  const places_of_angles all{{start.coarse.faces[0].side},
+                             {start.coarse.faces[start.coarse.faces.size() / 2].side},
+                             {start.coarse.faces.back().side}};
+  repartition_rounds<3> repartition(given.background.mesh, given.divided, true);
+  auto subdomains = start.subdomain_of_element;
+  std::vector<std::vector<local_id>> looked_at;
+  double seconds = 0;
+  const auto made = repartition.avoid_small_angles(
+      start, subdomains, 16,
+      [&] {
+        auto whole = start;
+        whole.subdomain_of_element = subdomains;
+        return whole;
+      },
+      [&](const auto& subdomain_of_element, const auto&) {
+        looked_at.push_back(subdomain_of_element);
+        auto part = start;
+        part.is_part = true;
+        part.subdomain_of_element = subdomain_of_element;
+        return part;
+      },
+      [&](const realized<3>& of) { return of.is_part && looked_at.size() == 2; },
+      [&](const realized<3>& of) {
+        // What was moved away from is mended; near it there is another one, so that there is a second round.
+        const bool is_start = of.subdomain_of_element == start.subdomain_of_element;
+        return is_start ? all : places_of_angles{{start.coarse.faces[1].side}};
+      },
+      seconds);
+  CHECK(looked_at.size() == 2);
+  CHECK(subdomains == looked_at[0]);
+  CHECK(made.counts.repartition_rounds == 2);
 }

@@ -4,6 +4,7 @@
 /// cause.
 #pragma once
 
+#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/fields.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -96,7 +97,8 @@ struct interface_angles {
   }
 };
 
-/// One of so many shares, about equal, of what there is to measure.
+/// One of so many shares, about equal, of what there is to measure: triangles that follow each other, and the
+/// edges of which the smaller point leaves the share's number as its remainder.
 struct angle_share {
   std::size_t number = 0; ///< from 0
   std::size_t of = 1;     ///< how many there are
@@ -127,12 +129,21 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 /// \param refused one per triangle, or empty
 /// \param half_edges those to measure, or empty
 /// \param skeleton_is `mesh_state::valid` skips the checks of a skeleton known to be valid
-/// \param share which triangles and edges to measure, as one of several tasks
+/// \param share which triangles and edges to measure, as one of several tasks; of `half_edges` those of
+/// other shares may be left out. Throws `usage_error` where there is no such share
 interface_angles measure_skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
                                          std::span<const std::uint8_t> refused = {},
                                          std::span<const std::uint32_t> half_edges = {},
                                          mesh_state skeleton_is = mesh_state::unknown,
                                          angle_share share = {});
+
+/// Half edges by the shares that measure them. Linear.
+/// \param fine the remeshed skeleton
+/// \param half_edges as for `measure_skeleton_angles`
+/// \param shares how many there are to be
+compressed_rows<std::uint32_t> half_edges_of_shares(const fine_skeleton& fine,
+                                                    std::span<const std::uint32_t> half_edges,
+                                                    std::size_t shares);
 
 /// What was measured in all shares, as it is without: least angles that are equal are those of the first
 /// triangles and edges. n log n in the violations.

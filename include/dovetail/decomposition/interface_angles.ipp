@@ -166,6 +166,13 @@ private:
   std::vector<bool> is_fixed_, is_interface_; ///< per side
 };
 
+inline std::array<local_id, 2> ends_of_half_edge(const fine_skeleton& fine, std::uint32_t half_edge) {
+  return sorted_vertices(pick(fine.sides[half_edge / 3], numbering::sides<2>[half_edge % 3]));
+}
+inline std::size_t share_of_edge(const fine_skeleton& fine, std::uint32_t half_edge, std::size_t shares) {
+  return static_cast<std::size_t>(ends_of_half_edge(fine, half_edge)[0]) % shares;
+}
+
 /// Measures between the triangles of a fine skeleton.
 class skeleton_angles {
 public:
@@ -178,8 +185,6 @@ public:
       require_triangles();
   }
 
-  /// The triangles of a share follow each other; edges are those of points whose numbers leave the share's
-  /// as their remainder, so that all shares have some of each patch.
   interface_angles run(const angle_share& share) {
     const std::size_t triangles = fine_.sides.size();
     for (std::size_t t = triangles * share.number / share.of; t < triangles * (share.number + 1) / share.of;
@@ -188,24 +193,21 @@ public:
         ++collector_.found.interface_faces;
         collector_.add_face(id, corners(span_of(fine_.points), fine_.sides[t]), cause_of(id, id));
       }
-    const auto shares = static_cast<local_id>(share.of), number = static_cast<local_id>(share.number);
-    const auto edge_of = [&](std::uint32_t h) {
-      return sorted_vertices(pick(fine_.sides[h / 3], numbering::sides<2>[h % 3]));
-    };
     std::vector<std::uint32_t> its;
     const auto take = [&](std::uint32_t h) {
-      if (edge_of(h)[0] % shares == number)
+      if (share_of_edge(fine_, h, share.of) == share.number)
         its.push_back(h);
     };
     std::for_each(half_edges_.begin(), half_edges_.end(), take);
     if (half_edges_.empty())
       for (std::size_t h = 0; h < 3 * triangles; ++h)
         take(static_cast<std::uint32_t>(h));
+    const auto shares = static_cast<local_id>(share.of), number = static_cast<local_id>(share.number);
     std::vector<std::uint32_t> around;
     for_each_group<2>(
         its.size(), fine_.points.size() / share.of + 1,
         [&](std::size_t i) {
-          const auto edge = edge_of(its[i]);
+          const auto edge = ends_of_half_edge(fine_, its[i]);
           return std::array{edge[0] / shares, edge[1]};
         },
         [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> members) {
@@ -353,7 +355,19 @@ DOVETAIL_INLINE interface_angles measure_skeleton_angles(const fine_skeleton& fi
                                                          std::span<const std::uint8_t> refused,
                                                          std::span<const std::uint32_t> half_edges,
                                                          mesh_state skeleton_is, angle_share share) {
+  if (share.number >= share.of)
+    throw usage_error("measure_skeleton_angles: there is no share " + std::to_string(share.number) + " of " +
+                      std::to_string(share.of));
   return detail::skeleton_angles(fine, wanted, refused, half_edges, skeleton_is).run(share);
+}
+
+DOVETAIL_INLINE compressed_rows<std::uint32_t> half_edges_of_shares(const fine_skeleton& fine,
+                                                                    std::span<const std::uint32_t> half_edges,
+                                                                    std::size_t shares) {
+  return sorted_into_rows<std::uint32_t>(shares, [&](const auto& put) {
+    for (const std::uint32_t h : half_edges)
+      put(detail::share_of_edge(fine, h, shares), h);
+  });
 }
 
 DOVETAIL_INLINE interface_angles joined_shares(std::span<const interface_angles> shares) {

@@ -16,6 +16,9 @@
 
 namespace dovetail {
 
+/// Places of small angles, each as the coarse sides there.
+using places_of_angles = std::vector<std::vector<local_id>>;
+
 /// Keeps a list of places that interfaces are to avoid, and gives super-elements there to other parts. Mesh,
 /// sides and decomposition must outlive it.
 template <int D>
@@ -162,7 +165,7 @@ private:
   const simplicial_mesh<D>& mesh_;
   const side_table<D>& sides_;
   const decomposition& pieces_;
-  std::vector<std::vector<local_id>> places_; ///< growing
+  places_of_angles places_; ///< growing
 };
 
 } // namespace dovetail

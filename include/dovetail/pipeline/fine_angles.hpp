@@ -5,6 +5,7 @@
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/decomposition/local_repartition.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/realize.hpp"
@@ -28,16 +29,14 @@ interface_angles fine_interface_angles(const realized<3>& skeleton, const simpli
 /// lines between subdomains that are on no CAD curve.
 interface_angles fine_interface_angles(const realized<2>& skeleton, const simplicial_background<2>& mesh,
                                        const divided_background<2>& divided, const any_sizing&,
-                                       const wanted_angles& wanted, const any_executor&,
+                                       const wanted_angles& wanted, const any_executor& run,
                                        const progress& = {});
 
 /// The coarse sides of small angles of a realized decomposition that are not forced, each set of sides once
 /// however many edges of the lines have a small angle there.
-std::vector<std::vector<local_id>> places_of_small_angles(const realized<3>& skeleton,
-                                                          const interface_angles& angles);
+places_of_angles places_of_small_angles(const realized<3>& skeleton, const interface_angles& angles);
 /// None that interfaces could keep clear of.
-inline std::vector<std::vector<local_id>> places_of_small_angles(const realized<2>&,
-                                                                 const interface_angles&) {
+inline places_of_angles places_of_small_angles(const realized<2>&, const interface_angles&) {
   return {};
 }
 

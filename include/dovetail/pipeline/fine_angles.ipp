@@ -48,26 +48,28 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skelet
       const std::size_t patch = skeleton.coarse.regions.size() + f;
       std::fill(refused.begin() + first[patch], refused.begin() + first[patch + 1], 1);
     }
-  const auto matter = half_edges_that_matter(skeleton);
   const std::size_t tasks = 1 + fine.sides.size() / triangles_per_task;
-  const auto shares = values_of(
-      map_tasks(
-          run, tasks,
-          [&](std::size_t task) {
-            return measure_skeleton_angles(fine, wanted, refused, matter, mesh_state::valid, {task, tasks});
-          },
-          run_options{.on_progress = on_progress, .stage = "intersection"}),
-      "the measuring of interface angles");
-  auto angles = joined_shares(shares);
-  find_forced(angles, fine.sides, cad_of(fine), size, wanted);
-  return angles;
+  const auto matter = half_edges_of_shares(fine, half_edges_that_matter(skeleton), tasks);
+  const auto shares = values_of(map_tasks(
+                                    run, tasks,
+                                    [&](std::size_t task) {
+                                      return measure_skeleton_angles(fine, wanted, refused, matter[task],
+                                                                     mesh_state::valid, {task, tasks});
+                                    },
+                                    run_options{.on_progress = on_progress, .stage = "intersection"}),
+                                "the measuring of interface angles");
+  return run.once([&] {
+    auto angles = joined_shares(shares);
+    find_forced(angles, fine.sides, cad_of(fine), size, wanted);
+    return angles;
+  });
 }
 
 DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<2>& skeleton,
                                                        const simplicial_background<2>& mesh,
                                                        const divided_background<2>& divided,
                                                        const any_sizing&, const wanted_angles& wanted,
-                                                       const any_executor&, const progress&) {
+                                                       const any_executor& run, const progress&) {
   const auto leaves = [&](local_id side, local_id vertex) {
     const auto& ends = divided.sides.vertices[side];
     const local_id line = find_line(skeleton.lines.keys, ends[0], ends[1]);
@@ -75,9 +77,11 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<2>& skelet
     const auto& points = skeleton.lines.points;
     return points[along[1]] - points[along[0]];
   };
-  auto angles = measure_interface_angles<2>({mesh.surface.mesh, divided.sides, divided.side_states,
-                                             skeleton.subdomain_of_element, leaves, mesh_state::valid},
-                                            wanted);
+  auto angles = run.once([&] {
+    return measure_interface_angles<2>({mesh.surface.mesh, divided.sides, divided.side_states,
+                                        skeleton.subdomain_of_element, leaves, mesh_state::valid},
+                                       wanted);
+  });
   const auto& fine = skeleton.fine;
   angles.interface_faces = 0;
   for (std::size_t e = 0; e < fine.sides.size(); ++e)
@@ -86,11 +90,11 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<2>& skelet
   return angles;
 }
 
-DOVETAIL_INLINE std::vector<std::vector<local_id>> places_of_small_angles(const realized<3>& skeleton,
-                                                                          const interface_angles& angles) {
+DOVETAIL_INLINE places_of_angles places_of_small_angles(const realized<3>& skeleton,
+                                                        const interface_angles& angles) {
   const auto& first = skeleton.patches.first_triangle;
   const auto regions = static_cast<std::ptrdiff_t>(skeleton.coarse.regions.size());
-  std::vector<std::vector<local_id>> places;
+  places_of_angles places;
   for (const angle_violation& v : angles.violations)
     if (v.cause != violation_cause::forced) {
       places.emplace_back();

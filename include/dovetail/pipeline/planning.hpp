@@ -85,10 +85,8 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, 
   return plan_background<D>(model, size, bind_parameters<D>(given));
 }
 
-/// A function that gives the plan for a field times a factor, as `plan_background` does, which costs little
-/// beyond the first: all are of one first surface mesh, and in D = 3 of one integral of sizes. It throws
-/// `sizing_error` where the factor makes sizes that cannot be used, or too many elements. The model must
-/// outlive it. Throws what `plan_background` throws.
+/// A function that gives the plan for a field times a factor, as `plan_background` does, but in D = 3 from
+/// one integral of sizes, which takes longer than all the rest. Both throw what `plan_background` throws.
 /// \param model the solids (D = 3) or faces (D = 2) to mesh
 /// \param size edge lengths, in the units of the model
 /// \param given policies and options

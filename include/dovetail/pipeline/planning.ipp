@@ -261,23 +261,23 @@ template <int D, bound_parameters<D> Parameters>
 std::function<mesh_plan(double factor)> plan_multiples(const any_geometry& model, const erased_sizing& size,
                                                        const Parameters& given) {
   const auto checked = detail::usable_size<D>(model, size, given);
-  const auto first = std::make_shared<const background::coarse_surface_result>(
-      detail::first_surface<D>(model, checked, given));
+  const auto first = detail::first_surface<D>(model, checked, given);
   const auto [elements, relative_error] = given.run_tasks.once([&] {
-    const auto predicted = detail::predict_on_surface<D>(model, checked, *first, given);
+    const auto predicted = detail::predict_on_surface<D>(model, checked, first, given);
     return std::pair(predicted.elements, predicted.relative_error);
   });
-  return [&model, size, given, first, elements = elements, error = relative_error](double factor) {
-    const auto scaled_size = detail::usable_size<D>(model, scaled(size, factor), given);
-    return given.run_tasks.once([&] {
+  return [model, size, given, elements = elements, relative_error = relative_error](double factor) {
+    const auto multiple = detail::usable_size<D>(model, scaled(size, factor), given);
+    const auto surface = detail::first_surface<D>(model, multiple, given);
+    return given.run_tasks.once([&, elements = elements, relative_error = relative_error] {
       element_prediction predicted;
       if constexpr (D == 3) { // the cells of the integral are those of any multiple of the field
         predicted.elements = elements / (factor * factor * factor);
-        predicted.relative_error = error;
+        predicted.relative_error = relative_error;
       } else {
-        predicted = detail::predict_on_surface<D>(model, scaled_size, *first, given);
+        predicted = detail::predict_on_surface<D>(model, multiple, surface, given);
       }
-      return detail::plan_of_prediction<D>(model, scaled_size, *first, predicted, given);
+      return detail::plan_of_prediction<D>(model, multiple, surface, predicted, given);
     });
   };
 }

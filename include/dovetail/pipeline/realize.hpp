@@ -97,13 +97,14 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
                     bind_parameters<D>(given));
 }
 
-/// The same of what has one of some points of the background mesh: all patches there, and their lines. At
-/// these points it is what `realize` makes, but for lines whose numbers of segments patches farther off would
-/// change. Costs what there is there, and a walk over the background mesh.
+/// The same of what has one of some points of the background mesh in D = 3: all patches there, and their
+/// lines. At these points it is nearly what `realize` makes: patches farther off may change the numbers of
+/// segments of lines, all of them where one fails. A curve is as long as its lines that are there. Costs what
+/// there is there, and a walk over the background mesh.
 /// \param is_wanted per point of the background mesh
-template <int D, bound_parameters<D> Parameters>
-realized<D> realize_part(const any_geometry& model, const simplicial_background<D>& mesh,
-                         const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
+template <bound_parameters<3> Parameters>
+realized<3> realize_part(const any_geometry& model, const simplicial_background<3>& mesh,
+                         const divided_background<3>& divided, std::vector<local_id> subdomain_of_element,
                          std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                          const Parameters& given, const std::vector<bool>& is_wanted);
 

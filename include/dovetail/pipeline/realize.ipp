@@ -169,15 +169,15 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
   return result;
 }
 
-template <int D, bound_parameters<D> Parameters>
-realized<D> realize_part(const any_geometry& model, const simplicial_background<D>& mesh,
-                         const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
+template <bound_parameters<3> Parameters>
+realized<3> realize_part(const any_geometry& model, const simplicial_background<3>& mesh,
+                         const divided_background<3>& divided, std::vector<local_id> subdomain_of_element,
                          std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
                          const Parameters& given, const std::vector<bool>& is_wanted) {
   const stopwatch clock;
   auto coarse =
       part_at_points(detail::skeleton_between(mesh, divided, subdomain_of_element), mesh.surface, is_wanted);
-  auto result = detail::realize_skeleton<D>(model, mesh, divided, std::move(coarse),
+  auto result = detail::realize_skeleton<3>(model, mesh, divided, std::move(coarse),
                                             std::move(subdomain_of_element), subdomains, size, made, given);
   result.is_part = true;
   result.summary.seconds = clock.seconds();
@@ -195,11 +195,11 @@ template realized<3> realize<3>(const any_geometry& model, const simplicial_back
                                 std::vector<local_id> subdomain_of_element, std::size_t subdomains,
                                 const refined_sizing& size, skeleton_store& made,
                                 const any_parameters<3>& given);
-template realized<3> realize_part<3>(const any_geometry& model, const simplicial_background<3>& mesh,
-                                     const divided_background<3>& divided,
-                                     std::vector<local_id> subdomain_of_element, std::size_t subdomains,
-                                     const refined_sizing& size, skeleton_store& made,
-                                     const any_parameters<3>& given, const std::vector<bool>& is_wanted);
+template realized<3> realize_part(const any_geometry& model, const simplicial_background<3>& mesh,
+                                  const divided_background<3>& divided,
+                                  std::vector<local_id> subdomain_of_element, std::size_t subdomains,
+                                  const refined_sizing& size, skeleton_store& made,
+                                  const any_parameters<3>& given, const std::vector<bool>& is_wanted);
 #endif
 
 } // namespace dovetail

@@ -17,9 +17,6 @@
 
 namespace dovetail {
 
-/// Places of small angles, each as the coarse sides there.
-using places_of_angles = std::vector<std::vector<local_id>>;
-
 /// A local search for the decomposition with small angles in the fewest places. Mesh and division must
 /// outlive it.
 template <int D>
@@ -32,13 +29,13 @@ public:
         are_wanted_(are_wanted && divided.angles.count(violation_cause::remeshing) == 0) {}
 
   /// Changes `subdomain_of_element`, of which `made` is realized, and returns what is realized of it then.
-  /// Rounds look at what is around their changes alone; the best of them is realized as a whole, and stays
-  /// if it is better there, too, and nothing crosses. Where the coarse interfaces have such angles already,
-  /// the rule does not care for them, and nothing is done.
+  /// Rounds look at what is around their changes alone, until something crosses there; the best of them is
+  /// realized as a whole. All are taken back where that is no better, or something crosses. Where the coarse
+  /// interfaces have such angles already, the rule does not care for them, and nothing is done.
   ///
-  /// `realize()` realizes `subdomain_of_element` as it is then, and `realize_part(subdomains, is_wanted)` the
-  /// part of such a list's skeleton that has points of a kind; `crosses(made)` says whether something crosses
-  /// in that, and `small_angles(made)` gives the places of small angles in it.
+  /// `realize()` realizes `subdomain_of_element` as it is then, `realize_part(subdomain_of_element,
+  /// is_wanted)` what has a wanted point; `crosses(made)` says whether something crosses in that, and
+  /// `small_angles(made)` gives the places of small angles in it.
   template <class Realize, class RealizePart, class Crosses, class SmallAngles>
   realized<D> avoid_small_angles(realized<D> made, std::vector<local_id>& subdomain_of_element,
                                  local_id subdomains, const Realize& realize, const RealizePart& realize_part,
@@ -50,7 +47,7 @@ public:
     auto places = small_angles(made);
     const stopwatch cost;
     while (are_wanted_ && !places.empty() && places.size() <= most_places(made.counts)) {
-      found best{places, subdomain_of_element};
+      candidate best{places, subdomain_of_element};
       const auto looks_at = [&](const std::vector<local_id>& subdomain, const std::vector<bool>& is_wanted) {
         auto part = realize_part(subdomain, is_wanted);
         return crosses(part) ? std::nullopt : std::optional(small_angles(part));
@@ -69,6 +66,8 @@ public:
       }
       moved_ += best.moved;
       places = std::move(left);
+      if (best.is_last)
+        break;
     }
     seconds_ += rounds_ > 0 ? cost.seconds() : 0;
     made.counts.repartition_rounds = rounds_;
@@ -92,17 +91,18 @@ private:
   }
 
   /// A decomposition, and where it has small angles.
-  struct found {
+  struct candidate {
     places_of_angles places;
     std::vector<local_id> subdomain_of_element;
     std::size_t moved = 0; ///< super-elements, since the decomposition that was realized as a whole
+    bool is_last = false;  ///< the search went on from it to where something crosses
   };
 
   /// Goes on from the best one round by round; whether there is a better one.
   template <class Look>
-  bool find_better(found& best, local_id subdomains, const Look& looks_at, double& seconds) {
+  bool find_better(candidate& best, local_id subdomains, const Look& looks_at, double& seconds) {
     const std::size_t places_before = best.places.size();
-    found here = best;
+    candidate here = best;
     while (!here.places.empty() && rounds_ < most_rounds) {
       const auto before = here.subdomain_of_element;
       const stopwatch clock;
@@ -114,8 +114,10 @@ private:
       ++rounds_;
       here.moved += moved;
       const auto places_there = looks_at(here.subdomain_of_element, points_around(changed));
-      if (!places_there) // something crosses; the same places would only ask for the same moves again
+      if (!places_there) { // the same places would only ask for the same moves again
+        best.is_last = true;
         break;
+      }
       std::erase_if(here.places, [&](const auto& place) { return is_at(place, changed); });
       std::copy_if(places_there->begin(), places_there->end(), std::back_inserter(here.places),
                    [&](const auto& place) { return is_at(place, changed); });

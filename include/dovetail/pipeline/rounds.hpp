@@ -148,11 +148,6 @@ private:
     return counted(realize<D>(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(), state_.size,
                               made_, given_));
   }
-  realized<D> realize_part_of(const std::vector<local_id>& subdomain_of_element,
-                              const std::vector<bool>& is_wanted) {
-    return counted(realize_part<D>(model_, mesh_, divided_, subdomain_of_element, subdomains(), state_.size,
-                                   made_, given_, is_wanted));
-  }
   realized<D> counted(realized<D> made) {
     skeleton_seconds_ += made.summary.seconds;
     made.summary.seconds = skeleton_seconds_;
@@ -161,14 +156,21 @@ private:
   std::size_t subdomains() const { return static_cast<std::size_t>(state_.merges.subdomains()); }
 
   realized<D> with_clean_angles(realized<D> made) {
-    return repartition_.avoid_small_angles(
-        std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
-        [&] { return realize_once(); },
-        [&](const auto& subdomain_of_element, const auto& is_wanted) {
-          return realize_part_of(subdomain_of_element, is_wanted);
-        },
-        [&](const realized<D>& made_so) { return !boundaries_plan(made_so).empty(); },
-        [&](const realized<D>& made_so) { return small_angles_of(made_so); }, account_.seconds);
+    if constexpr (D == 3) {
+      const auto realize_part_of = [&](const auto& subdomain_of_element, const auto& is_wanted) {
+        return counted(realize_part(model_, mesh_, divided_, subdomain_of_element, subdomains(), state_.size,
+                                    made_, given_, is_wanted));
+      };
+      made = repartition_.avoid_small_angles(
+          std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
+          [&] { return realize_once(); }, realize_part_of,
+          [&](const realized<3>& made_so) { return !boundaries_plan(made_so).empty(); },
+          [&](const realized<3>& made_so) { return small_angles_of(made_so); }, account_.seconds);
+      made.summary.seconds = skeleton_seconds_;
+    } else {
+      small_angles_of(made); // corners between lines: there is no place that these could avoid
+    }
+    return made;
   }
 
   /// Measures the interface angles; returns the places of those that are small and not forced.
