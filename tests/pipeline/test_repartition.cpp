@@ -312,3 +312,53 @@ TEST_CASE("A search that ends where something crosses is the last one; its best 
   CHECK(subdomains == looked_at[0]);
   CHECK(made.counts.repartition_rounds == 2);
 }
+
+TEST_CASE("Of a part only the places at the changes count, and elsewhere those of before") {
+  decomposed_shell given(0.5, 16);
+  auto rounds = given.rounds(0.05);
+  const auto start = rounds.realize_boundaries().value();
+  const std::vector<local_id> avoidable{start.coarse.faces[0].side}, unavoidable;
+  const auto wholes_where = [&](bool is_left, bool is_far_off) {
+    repartition_rounds<3> repartition(given.background.mesh, given.divided, true);
+    auto subdomains = start.subdomain_of_element;
+    std::vector<bool> wanted;
+    int wholes = 0;
+    double seconds = 0;
+    repartition.avoid_small_angles(
+        start, subdomains, 16,
+        [&] {
+          ++wholes;
+          auto whole = start;
+          whole.subdomain_of_element = subdomains;
+          return whole;
+        },
+        [&](const auto&, const auto& is_wanted) {
+          wanted = is_wanted;
+          auto part = start;
+          part.is_part = true;
+          return part;
+        },
+        [](const auto&) { return false; },
+        [&](const realized<3>& of) {
+          if (!of.is_part)
+            return of.subdomain_of_element == start.subdomain_of_element
+                       ? places_of_angles{unavoidable, avoidable}
+                       : places_of_angles{unavoidable};
+          places_of_angles places;
+          if (is_left)
+            places.push_back(avoidable);
+          for (const skeleton_face& face : start.coarse.faces)
+            if (is_far_off && std::none_of(face.vertices.begin(), face.vertices.end(),
+                                           [&](local_id v) { return wanted[v]; })) {
+              places.push_back({face.side});
+              break;
+            }
+          return places;
+        },
+        seconds);
+    return wholes;
+  };
+  CHECK(wholes_where(false, false) == 1);
+  CHECK(wholes_where(false, true) == 1);
+  CHECK(wholes_where(true, false) == 0);
+}
