@@ -3,6 +3,7 @@
 #include "dovetail/adapters/tetgen.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/models/occt_model.hpp"
+#include "dovetail/pipeline/any_parameters.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/rounds.hpp"
