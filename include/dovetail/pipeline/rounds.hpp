@@ -161,11 +161,16 @@ private:
         return counted(realize_part(model_, mesh_, divided_, subdomain_of_element, subdomains(), state_.size,
                                     made_, given_, is_wanted));
       };
+      const std::size_t lines_before = made_.lines.made() - made.counts.lines_made;
+      const std::size_t patches_before = made_.patches.meshes.made() - made.counts.patches_made;
       made = repartition_.avoid_small_angles(
           std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
           [&] { return realize_once(); }, realize_part_of,
           [&](const realized<3>& made_so) { return !boundaries_plan(made_so).empty(); },
           [&](const realized<3>& made_so) { return small_angles_of(made_so); }, account_.seconds);
+      made.counts.lines_made = made_.lines.made() - lines_before;
+      made.counts.patches_made = made_.patches.meshes.made() - patches_before;
+      made.summary.set(made.counts);
       made.summary.seconds = skeleton_seconds_;
     } else {
       small_angles_of(made); // corners between lines: there is no place that these could avoid
