@@ -3,8 +3,9 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/decomposition/angle_types.hpp"
 #include "dovetail/mesh/quality.hpp"
+#include "dovetail/mesh/wanted_angles.hpp"
 
 #include <array>
 #include <tuple>
