@@ -52,6 +52,14 @@ places_of_angles small_angles(const decomposed_shell& given, const realized<3>& 
                                           wanted_angles_of<3>(given.given.simplify_by), parallel::serial{}));
 }
 
+/// As if the same came out for other subdomains.
+realized<3> with_subdomains(realized<3> made, const std::vector<local_id>& subdomain_of_element,
+                            bool is_part) {
+  made.subdomain_of_element = subdomain_of_element;
+  made.is_part = is_part;
+  return made;
+}
+
 } // namespace
 
 TEST_CASE("Interfaces move away from small angles, but not to where something crosses") {
@@ -243,17 +251,13 @@ TEST_CASE("What is better around the changes but not as a whole is taken back") 
         start, subdomains, 16,
         [&] {
           ++wholes;
-          auto whole = start;
-          whole.subdomain_of_element = subdomains;
-          return whole;
+          return with_subdomains(start, subdomains, false);
         },
         [&](const auto& subdomain_of_element, const auto& is_wanted) {
           ++parts;
           CHECK(subdomain_of_element != start.subdomain_of_element);
           CHECK(std::count(is_wanted.begin(), is_wanted.end(), true) > 0);
-          auto part = start;
-          part.is_part = true;
-          return part;
+          return with_subdomains(start, subdomain_of_element, true);
         },
         [&](const realized<3>& of) { return crosses_as_a_whole && !of.is_part; },
         [&](const realized<3>& of) {
@@ -288,18 +292,10 @@ TEST_CASE("A search that ends where something crosses is the last one; its best 
   std::vector<std::vector<local_id>> looked_at;
   double seconds = 0;
   const auto made = repartition.avoid_small_angles(
-      start, subdomains, 16,
-      [&] {
-        auto whole = start;
-        whole.subdomain_of_element = subdomains;
-        return whole;
-      },
+      start, subdomains, 16, [&] { return with_subdomains(start, subdomains, false); },
       [&](const auto& subdomain_of_element, const auto&) {
         looked_at.push_back(subdomain_of_element);
-        auto part = start;
-        part.is_part = true;
-        part.subdomain_of_element = subdomain_of_element;
-        return part;
+        return with_subdomains(start, subdomain_of_element, true);
       },
       [&](const realized<3>& of) { return of.is_part && looked_at.size() == 2; },
       [&](const realized<3>& of) {
@@ -328,15 +324,11 @@ TEST_CASE("Of a part only the places at the changes count, and elsewhere those o
         start, subdomains, 16,
         [&] {
           ++wholes;
-          auto whole = start;
-          whole.subdomain_of_element = subdomains;
-          return whole;
+          return with_subdomains(start, subdomains, false);
         },
-        [&](const auto&, const auto& is_wanted) {
+        [&](const auto& subdomain_of_element, const auto& is_wanted) {
           wanted = is_wanted;
-          auto part = start;
-          part.is_part = true;
-          return part;
+          return with_subdomains(start, subdomain_of_element, true);
         },
         [](const auto&) { return false; },
         [&](const realized<3>& of) {

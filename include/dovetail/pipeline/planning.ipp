@@ -16,9 +16,9 @@
 #include "dovetail/sizing/volume_prediction.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 

@@ -54,12 +54,11 @@ public:
       };
       if (!find_better(best, subdomains, looks_at, seconds))
         break;
-      std::swap(subdomain_of_element, best.subdomain_of_element);
+      const auto before = std::exchange(subdomain_of_element, std::move(best.subdomain_of_element));
       realize_again();
-      const bool is_apart = !crosses(made);
-      auto left = is_apart ? small_angles(made) : places;
+      auto left = crosses(made) ? places : small_angles(made); // no better where something crosses
       if (left.size() >= places.size()) {
-        subdomain_of_element = std::move(best.subdomain_of_element);
+        subdomain_of_element = before;
         realize_again();
         small_angles(made);
         break;
