@@ -280,6 +280,10 @@ struct parser {
                        "How subdomains come about, of a coarse mesh, by planes through the fine surface, or "
                        "of a fine mesh: " +
                            joined(decomposition_names()));
+    command
+        .add_option("--only", mesh.only,
+                    "Subdomains of which alone the pieces are made, as in the whole mesh; from 0: 7,12-15")
+        ->delimiter(',');
     add_paper_options(command, mesh);
     add_output_options(command, mesh);
     command.callback([this] {

@@ -118,6 +118,7 @@ void add_pipeline_figures(const generated<D>& result, const geometry_topology& t
   const report& summary = result.summary;
   figures.background_elements = static_cast<std::int64_t>(result.background.elements().elements.size());
   figures.subdomains = static_cast<int>(result.mesh.counts.size());
+  figures.of_subdomains = static_cast<std::int64_t>(result.subdomains);
   figures.quality = result.quality;
   figures.interfaces = figures_of(result.fine_angles, topology);
   figures.coarse_interfaces = figures_of(result.coarse_angles, topology);
@@ -260,7 +261,7 @@ private:
     const auto volume = volume_aside(source);
     generated<D> result = suppression_.retried(source, [&] { return generate(source, folder); });
     if constexpr (D == 3)
-      if (source.volume && result.failures.empty())
+      if (source.volume && result.failures.empty() && parameters_.only.empty())
         compare_volume(result.mesh.skeleton, volume ? volume->wait().value_or(std::nullopt) : source.volume(),
                        result.summary);
     describe(source, result);
@@ -286,7 +287,8 @@ private:
   /// The volume of the model as drawn, which takes as long as a stage. There are stages that leave a
   /// processor free.
   std::unique_ptr<made_aside<std::optional<double>>> volume_aside(const model_source& source) const {
-    if (D == 2 || !source.volume || options_.network || policies_.executor.workers() < 2)
+    if (D == 2 || !source.volume || !parameters_.only.empty() || options_.network ||
+        policies_.executor.workers() < 2)
       return {};
     return std::make_unique<made_aside<std::optional<double>>>(source.volume);
   }
@@ -297,7 +299,7 @@ private:
   }
 
   generated<D> generate(const model_source& source, const std::filesystem::path& folder) {
-    if (!options_.force)
+    if (!options_.force && parameters_.only.empty())
       parameters_.largest_prediction = elements_with_room_everywhere(folder);
     try {
       if constexpr (D == 3)
@@ -352,6 +354,7 @@ private:
     figures_.background_mesher = policies_.background_mesher.name();
     figures_.surface_mesher = policies_.surface_mesher.name();
     figures_.workers = policies_.executor.workers();
+    figures_.only.assign(parameters_.only.begin(), parameters_.only.end());
     add_pipeline_figures(result, source.geometry.topology(), figures_);
     add_mesh_figures(result.mesh, figures_);
     if constexpr (D == 3) // the only one whose memory was measured

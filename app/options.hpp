@@ -35,6 +35,7 @@ struct mesh_options {
   int dimension = 3; ///< of the elements: 3, or 2 for triangles on the surface
   std::optional<int> subdomains;
   std::optional<double> coarsening; ///< background size over size
+  std::vector<std::string> only;    ///< subdomains that are meshed, as numbers or ranges; empty: all
   std::string decomposition;        ///< how the domain becomes subdomains; empty: the default
   int workers = 0;                  ///< 0: as many as the machine has; on several ranks one each
   std::string mesher;

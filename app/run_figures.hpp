@@ -72,8 +72,10 @@ struct run_figures {
   std::int64_t vertices = 0;
   std::int64_t boundary_triangles = 0;
   std::int64_t background_elements = 0;
-  int subdomains = 0;
-  double imbalance = 0; ///< largest subdomain over the average, in elements
+  int subdomains = 0;                  ///< with a piece in the mesh
+  std::vector<std::int64_t> only = {}; ///< their numbers, where they are not all
+  std::int64_t of_subdomains = 0;      ///< how many there are in all
+  double imbalance = 0;                ///< largest subdomain over the average, in elements
   stage_seconds seconds;
   quality_statistics quality;
   quality_at_interfaces at_interfaces;            ///< of the same elements

@@ -61,6 +61,10 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   identity.emplace_back("enlarged above", all_digits(numbers.enlarged_above));
   identity.emplace_back("undivided elements", all_digits(numbers.undivided_elements));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
+  std::string only = numbers.only.empty() ? "all" : "";
+  for (const local_id subdomain : numbers.only)
+    only.append(std::to_string(subdomain)).append(",");
+  identity.emplace_back("only", only);
   identity.emplace_back("coarsening", options.coarsening ? all_digits(*options.coarsening) : "default");
   identity.emplace_back("decomposition",
                         chosen_name(decomposition_names(), options.decomposition, "--decomposition"));

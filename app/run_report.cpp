@@ -190,6 +190,8 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
                    {"boundary_triangles", figures.boundary_triangles},
                    {"background_elements", figures.background_elements},
                    {"subdomains", figures.subdomains},
+                   {"only", figures.only},
+                   {"of_subdomains", figures.of_subdomains},
                    {"imbalance", figures.imbalance},
                    {"seconds", seconds_json(figures.seconds)},
                    {"quality", quality_json(figures.quality, figures.dimension)},

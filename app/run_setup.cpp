@@ -6,11 +6,18 @@
 #include "policies.hpp"
 
 #include "dovetail/core/number_text.hpp"
+#include "dovetail/core/sequence.hpp"
 
+#include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 namespace dovetail::app {
 
@@ -22,6 +29,8 @@ void check_decomposition(const mesh_options& options, int dimension) {
   if (name == decomposition_names().front())
     return;
   const std::string given = "--decomposition " + name;
+  if (!options.only.empty())
+    throw command_line_error(given + " cannot make pieces by themselves: leave --only out");
   if (dimension == 2)
     throw command_line_error(given + " divides solids; with --dimension 2 there are none");
   const bool parts_later = options.redistribute == by_elements;
@@ -54,6 +63,35 @@ bool leaves_decomposition_open(const mesh_options& options) {
          options.super_element_bound.empty() && options.segment_matching.empty() &&
          options.local_repartition.empty() && !options.paper &&
          (options.mesher.empty() || options.mesher == "native");
+}
+
+/// The number of a subdomain, all of the text; nothing where it is none.
+std::optional<local_id> subdomain_number(std::string_view text) {
+  local_id number = no_id;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || number < 0)
+    return std::nullopt;
+  return number;
+}
+
+/// The subdomains that `--only` lists, growing.
+std::vector<local_id> subdomains_in(const std::vector<std::string>& list) {
+  constexpr std::size_t most = 10'000'000;
+  std::vector<local_id> numbers;
+  for (const std::string_view item : list) {
+    const auto dash = item.find('-');
+    const auto first = subdomain_number(item.substr(0, dash));
+    const auto last = dash == item.npos ? first : subdomain_number(item.substr(dash + 1));
+    if (!first || !last || *last < *first)
+      throw command_line_error("--only: '" + std::string(item) +
+                               "' is neither the number of a subdomain nor a range like 12-15");
+    if (numbers.size() + static_cast<std::size_t>(*last - *first) >= most)
+      throw command_line_error("--only: these are more than " + std::to_string(most) + " subdomains");
+    for (local_id number = *first; number <= *last; ++number)
+      numbers.push_back(number);
+  }
+  sort_unique(numbers);
+  return numbers;
 }
 
 } // namespace
@@ -121,6 +159,9 @@ generate_options make_generate_options(const mesh_options& options) {
                                " is not a number of pieces");
     result.subdomains = *options.subdomains;
   }
+  result.only = subdomains_in(options.only);
+  if (!result.only.empty() && options.ranks)
+    throw command_line_error("--only: --ranks divides whole meshes; leave one of them out");
   // Up to here one process meshes six CAD models sooner than it decomposes them.
   constexpr double sooner_undivided = 650'000;
   if (leaves_decomposition_open(options))

@@ -120,6 +120,40 @@ expect_success "${shown[@]}" --paper --partitioner metis:2
 expect_usage_error "--segment-matching: with --dimension 2 there are no faces" \
   mesh "$inputs/cube.off" --dimension 2 --segment-matching off
 
+check_mesh() { # the one that was just made
+  rm -rf "$inputs/out"
+  mv "$sandbox/work/out" "$inputs"
+  expect_success check "$inputs/out"
+}
+
+# Pieces by themselves are those of the whole mesh, any order, workers and formats.
+some=(mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --report report.json)
+expect_success "${some[@]}"
+elements=$(figure elements)
+sum=0
+for only in 0 1-2,4 5,3; do
+  expect_success "${some[@]}" --only $only
+  (($(figure of_subdomains) == 6)) || fault "of $(figure of_subdomains) subdomains"
+  sum=$((sum + $(figure elements)))
+  check_mesh
+done
+((sum == elements)) || fault "$sum elements in pieces, and $elements in all"
+expect_success "${some[@]}" --only 5,3 --only 3 --workers 1
+(($(figure subdomains) == 2)) || fault "$(figure subdomains) pieces of two"
+hash=$(figure mesh_hash)
+expect_success "${some[@]}" --only 3,5 --format msh,hdf5 --order 2
+[[ $(figure mesh_hash) == "$hash" ]] || fault "other pieces in another order"
+check_mesh
+expect_success mesh "$inputs/cube.off" --size 0.1 --only 0 --format none --report report.json # a mesh of one piece
+[[ $(figure of_subdomains) == 1 ]] || fault "a mesh of one piece is divided for --only"
+expect_error "there is no subdomain 6: there are 6, numbered from 0" "${some[@]}" --only 2,6
+for list in x 3-1 1- 2x 1.5 99999999999; do
+  expect_usage_error "--only: '$list' is neither the number of a subdomain nor a range like 12-15" mesh nothing.off --only $list
+done
+expect_usage_error "--only: these are more than 10000000 subdomains" mesh nothing.off --only 0-99999999
+expect_usage_error "--only: --ranks divides whole meshes" mesh nothing.off --only 1 --ranks 2
+expect_usage_error "--decomposition bisection cannot make pieces by themselves" mesh nothing.off --decomposition bisection --only 1
+
 # What has no part in it is refused before anything is read.
 bad=(mesh nothing.off --decomposition bisection)
 expect_usage_error "--decomposition: there is no 'halves'; there are: simplification, bisection, fine-partition" \

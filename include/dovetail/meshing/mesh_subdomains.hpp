@@ -42,6 +42,7 @@ struct piece_failure {
 struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
   std::vector<double> predicted_cost = {};
+  std::vector<local_id> wanted = {}; ///< the subdomains that are meshed, each once; empty: all
   /// Finished pieces go here under their keys; those that are there already are not made again. Without a
   /// store the result has one of its own, in memory. Mesher, improver and the plain sizes must be the same as
   /// long as the store is.
@@ -76,10 +77,11 @@ struct meshing_counts {
 /// What became of the subdomains.
 template <int D>
 struct meshed_pieces {
-  /// Per subdomain; counts are 0 where it failed. Of a report only "attempt", "stops_by_clock", and the
-  /// seconds, warnings and deviations of its children: counters of mesher and improver stay in the store.
+  /// Per subdomain; counts are 0 where it failed, or was not wanted. Of a report only "attempt",
+  /// "stops_by_clock", and the seconds, warnings and deviations of its children: counters of mesher and
+  /// improver stay in the store.
   std::vector<piece_summary> pieces;
-  std::vector<content_key> keys;       ///< per subdomain: of its piece in the store; 0 where it failed
+  std::vector<content_key> keys;       ///< per subdomain: of its piece in the store; 0 where there is none
   std::vector<piece_failure> failures; ///< by growing subdomain
   quality_statistics quality;          ///< of all pieces together
   /// A finished piece; `io_error` when its file is damaged.

@@ -44,9 +44,14 @@ public:
         pieces_(std::make_shared<kept_pieces<D>>(count, options.store ? options.store
                                                                       : std::make_shared<entity_store>())) {
     result_.pieces.resize(count);
-    pending_.resize(count);
-    for (std::size_t s = 0; s < count; ++s)
-      pending_[s].subdomain = static_cast<local_id>(s);
+    std::vector<local_id> wanted = options.wanted;
+    if (wanted.empty()) {
+      wanted.resize(count);
+      std::iota(wanted.begin(), wanted.end(), local_id{0});
+    }
+    pending_.resize(wanted.size());
+    for (std::size_t k = 0; k < wanted.size(); ++k)
+      pending_[k].subdomain = wanted[k];
   }
 
   meshed_pieces<D> run() {

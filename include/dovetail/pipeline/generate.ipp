@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/mesh/selected_pieces.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/pipeline/assemble_mesh.hpp"
 #include "dovetail/pipeline/compare_with_plan.hpp"
@@ -51,10 +52,13 @@ std::optional<generated<D>> generate_once(const any_geometry& model, background_
   result.plan = background.plan;
   if (!background.mesh.elements().elements.empty())
     result.subdomain_of_element = skeleton.subdomain_of_element;
+  result.subdomains = skeleton.material_of_subdomain.size();
   result.coarse_angles = std::move(divided.angles);
   result.fine_angles = rounds.take_fine_angles();
   result.quality = meshed.quality;
   result.mesh = assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
+  if (const auto& only = given.options.only; !only.empty())
+    result.mesh = selected_pieces<D>(result.mesh, only);
   result.failures = std::move(meshed.failures);
   result.summary.name = "generate";
   result.summary.children = {std::move(background.summary), std::move(divided.simplification),
@@ -86,8 +90,9 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
       const double of_pieces = stops_by_clock(result->summary.find("meshing"));
       result->summary.set(clock_counts{std::max(0.0, watch.stops() - of_pieces)});
       result->summary.seconds = result->summary.children.front().seconds + clock.seconds();
-      compare_with_plan(result->plan.predicted_elements, static_cast<double>(result->quality.elements),
-                        result->summary);
+      if (given.options.only.empty())
+        compare_with_plan(result->plan.predicted_elements, static_cast<double>(result->quality.elements),
+                          result->summary);
       return *std::move(result);
     }
     if (subdomains <= 1)

@@ -2,6 +2,7 @@
 /// The parameters of `generate`, composed of policies: `parameters<>{}.with_mesher(mesher::tetgen{})`.
 #pragma once
 
+#include "dovetail/core/ids.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/wrapped_policy.hpp"
 #include "dovetail/improver/concepts.hpp"
@@ -23,6 +24,7 @@
 #include <filesystem>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace dovetail {
 
@@ -44,6 +46,9 @@ struct generate_options {
   /// anything.
   double background_elements_per_subdomain = 1250;
   double background_elements = 75000;
+  /// Subdomains of which alone the pieces are made, growing; empty: of all. Each is, bit for bit, as in the
+  /// whole mesh, as long as in that no other subdomain fails and is merged, and in D = 2 no pieces cross.
+  std::vector<local_id> only = {};
   double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above
   /// How heavy the simplification may make a super-element; its `subdomains` are those of the mesh, whatever
   /// is given.

@@ -37,12 +37,12 @@ std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span
 
 } // namespace detail
 
-/// Meshes all pieces of a realized decomposition that the store does not have.
+/// Meshes all pieces of a realized decomposition that are wanted and the store does not have.
 template <int D, bound_parameters<D> Parameters>
-meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
-                                 const realized<D>& skeleton, std::span<const double> weights,
-                                 const refined_sizing& size, const std::shared_ptr<entity_store>& store,
-                                 const Parameters& given) {
+meshed_pieces<D> mesh_wanted_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
+                                    const realized<D>& skeleton, std::span<const double> weights,
+                                    const refined_sizing& size, const std::shared_ptr<entity_store>& store,
+                                    const Parameters& given) {
   const auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
   // The skeleton itself goes into the finished mesh, and its pieces may be loaded as long as that is.
@@ -52,6 +52,7 @@ meshed_pieces<D> mesh_all_pieces(const any_geometry& model, const simplicial_bac
     return points_of_subdomain<D>(span_of(*sides), *sorted, s);
   };
   options.predicted_cost = detail::weights_of_subdomains(skeleton, weights);
+  options.wanted = given.options.only;
   options.store = store;
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.on_progress = given.options.on_progress;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
@@ -96,16 +97,19 @@ public:
 
   /// The same with the pieces meshed. What neither the mesher nor a fallback can mesh is refined where a
   /// surface is at fault, or merged with a neighbour, as long as that may be; what then fails still is data.
+  /// Where only some pieces are wanted, nothing of this is repaired: that would give them other numbers.
+  /// Throws `usage_error` when one is wanted that there is not.
   std::optional<std::pair<realized<D>, meshed_pieces<D>>> mesh_pieces() {
     while (auto made = realize_boundaries()) {
-      auto meshed = mesh_all_pieces(model_, mesh_, *made, divided_.weights, state_.size, pieces_, given_);
+      require_wanted();
+      auto meshed = mesh_wanted_pieces(model_, mesh_, *made, divided_.weights, state_.size, pieces_, given_);
       finished_.insert(meshed.keys.begin(), meshed.keys.end());
       const auto refine = [&] { return refine_faults(faults_of(*made, meshed), state_); };
       const auto merge = [&] { return merge_failures<D>(made->fine, meshed.failures, state_); };
       const auto uncross = [&] {
         return crossings_of(plan_for_pieces(model_, *made, meshed, given_, counts_, account_.seconds));
       };
-      if (repaired_by(refine, merge, uncross))
+      if (given_.options.only.empty() && repaired_by(refine, merge, uncross))
         continue;
       if (!too_many_merges_.empty())
         break;
@@ -154,6 +158,12 @@ private:
     return made;
   }
   std::size_t subdomains() const { return static_cast<std::size_t>(state_.merges.subdomains()); }
+  void require_wanted() const {
+    for (const local_id wanted : given_.options.only)
+      if (wanted < 0 || static_cast<std::size_t>(wanted) >= subdomains())
+        throw usage_error("there is no subdomain " + std::to_string(wanted) + ": there are " +
+                          std::to_string(subdomains()) + ", numbered from 0");
+  }
 
   realized<D> with_clean_angles(realized<D> made) {
     if constexpr (D == 3) {

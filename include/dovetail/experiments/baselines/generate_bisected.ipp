@@ -42,11 +42,12 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   const stopwatch measuring; // in the stage of the bisection
   result.fine_angles = detail::angles_of_interfaces(made.fine, rounds.size(), given.simplify_by);
   divided.summary.seconds += measuring.seconds();
-  auto meshed = mesh_all_pieces<3>(model, background.mesh, made, {}, rounds.size(),
-                                   std::make_shared<entity_store>(given.options.store), given);
+  auto meshed = mesh_wanted_pieces<3>(model, background.mesh, made, {}, rounds.size(),
+                                      std::make_shared<entity_store>(given.options.store), given);
   result.plan = background.plan;
   result.plan.subdomains = static_cast<int>(made.material_of_subdomain.size());
   result.quality = meshed.quality;
+  result.subdomains = meshed.pieces.size();
   result.mesh = dovetail::detail::assemble_mesh<3>(model, std::move(made.fine), meshed);
   result.failures = std::move(meshed.failures);
   result.summary.name = "generate";
