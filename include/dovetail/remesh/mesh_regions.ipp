@@ -9,6 +9,7 @@
 #include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/chords.hpp"
+#include "dovetail/remesh/flat_neighbours.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/remesh/unwanted_chords.hpp"
@@ -123,6 +124,7 @@ public:
       result_.keys.push_back(key_of(r, region));
       append_row(result_.labels, region.boundary.labels);
       append_row(segments_, region.boundary.segments);
+      faces_.push_back(region.face);
       costs_.push_back(triangles_within(static_cast<double>(region.boundary.segments.size())));
     }
   }
@@ -245,7 +247,7 @@ private:
   }
 
   /// Forbids each chord to all regions that have it but the first, and to all of them where a segment joins
-  /// the same labels; false when there is nothing to do.
+  /// the same labels, or to curved ones where it lies in a flat face; false when there is nothing to do.
   bool forbid_shared_chords() {
     const auto labelled = [this](std::size_t r, const simplex<1>& edge) {
       const auto labels = std::as_const(result_.labels)[r];
@@ -260,11 +262,12 @@ private:
       return false;
     sort_unique(chords);
     const std::vector<std::uint8_t> is_line = chords_on_segments(chords, labelled);
+    const std::vector<std::uint8_t> is_in_flat_face = chords_in_flat_faces(chords);
     std::set<std::size_t> changed;
     for (std::size_t i = 0; i < chords.size(); ++i) {
       const auto& [chord, r] = chords[i];
       const bool another_has_it = i > 0 && chords[i - 1].first == chord;
-      if ((another_has_it || is_line[i] != 0) && forbid(r, chord))
+      if ((another_has_it || is_line[i] != 0 || is_in_flat_face[i] != 0) && forbid(r, chord))
         changed.insert(r);
     }
     for (const std::size_t r : changed)
@@ -287,6 +290,28 @@ private:
     return found;
   }
 
+  /// Whether a chord is of a curved CAD face and lies in a flat one, per chord.
+  std::vector<std::uint8_t>
+  chords_in_flat_faces(const std::vector<std::pair<simplex<1>, std::size_t>>& chords) const {
+    std::vector<std::uint8_t> found(chords.size(), 0);
+    std::vector<local_id> ends;
+    for (const auto& [chord, r] : chords)
+      if (faces_[r] != no_id)
+        append(ends, chord);
+    if (ends.empty())
+      return found;
+    flat_neighbours flat(model_, std::move(ends));
+    for (std::size_t r = 0; r < set_.count; ++r)
+      if (faces_[r] != no_id)
+        flat.add(faces_[r], std::as_const(result_.labels)[r]);
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+      const auto& [chord, r] = chords[i];
+      if (faces_[r] != no_id && !flat.is_flat(faces_[r]) && flat.share_a_plane(chord[0], chord[1]))
+        found[i] = 1;
+    }
+    return found;
+  }
+
   /// False when it is forbidden already. An edge that the region forbids itself is in no mesh of it.
   bool forbid(std::size_t r, const simplex<1>& chord) {
     auto& forbidden = set_.forbidden_edges[r];
@@ -305,6 +330,7 @@ private:
   const mesh_regions_options& options_;
   std::vector<double> costs_;
   compressed_rows<simplex<1>> segments_; ///< of each region's boundary
+  std::vector<local_id> faces_;          ///< of each region, no_id for interface faces
   meshed_regions result_;
 };
 
