@@ -283,7 +283,8 @@ struct parser {
     command
         .add_option("--only", mesh.only,
                     "Subdomains of which alone the pieces are made, as in the whole mesh; from 0: 7,12-15")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->allow_extra_args(false);
     add_paper_options(command, mesh);
     add_output_options(command, mesh);
     command.callback([this] {

@@ -146,8 +146,10 @@ void add_mesh_figures(const distributed_simplicial_mesh<D>& mesh, run_figures& f
   const piece_figures pieces = figures_of_pieces(mesh.counts);
   figures.elements = pieces.elements;
   figures.imbalance = pieces.imbalance;
-  figures.boundary_triangles = std::count_if(mesh.skeleton.subdomains.begin(), mesh.skeleton.subdomains.end(),
-                                             [](const auto& sides) { return sides[1] == no_id; });
+  figures.boundary_triangles = 0;
+  for (std::size_t s = 0; s < mesh.skeleton.sides.size(); ++s) // without a CAD face: towards a piece not made
+    if (mesh.skeleton.subdomains[s][1] == no_id && (D == 2 || mesh.skeleton.side_hosts[s] != no_id))
+      ++figures.boundary_triangles;
 }
 
 /// One run of `dovetail mesh`.

@@ -162,6 +162,12 @@ generate_options make_generate_options(const mesh_options& options) {
   result.only = subdomains_in(options.only);
   if (!result.only.empty() && options.ranks)
     throw command_line_error("--only: --ranks divides whole meshes; leave one of them out");
+  if (!result.only.empty() && options.order == 2)
+    throw command_line_error(
+        "--only: where middles of edges are depends on the other pieces; leave --order 2 out");
+  if (!result.only.empty() && !options.trace.empty())
+    throw command_line_error(
+        "--only: the trace of some pieces tells nothing about whole meshes; leave --trace out");
   // Up to here one process meshes six CAD models sooner than it decomposes them.
   constexpr double sooner_undivided = 650'000;
   if (leaves_decomposition_open(options))

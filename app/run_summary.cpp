@@ -57,7 +57,7 @@ void add_general(table& rows, const run_figures& figures) {
              figures.background_elements);
   rows.whole("No. of subdomains", figures.subdomains);
   if (!figures.only.empty())
-    rows.whole("  Of", figures.of_subdomains);
+    rows.whole("  Of a total of", figures.of_subdomains);
   rows.whole(solid ? "No. of tetrahedra" : "No. of triangles", figures.elements);
   rows.whole("No. of vertices", figures.vertices);
   rows.whole(solid ? "No. of surface elements" : "No. of boundary edges", figures.boundary_triangles);

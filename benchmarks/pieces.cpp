@@ -116,7 +116,7 @@ int main(int argc, char** argv) try {
           bind_parameters<3>(policies.with_mesher(mesher).with_improver(improver).with_executor(
               parallel::threads{.worker_count = threads}));
       const stopwatch clock;
-      const auto meshed = mesh_all_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
+      const auto meshed = mesh_wanted_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
                                              std::make_shared<entity_store>(), with_threads);
       const double wall = clock.seconds();
       std::printf("| %d | %zu | %.0f | %.0f | %.0f | %.2f | %.2f | %.0f | %.0f | %.2f |\n", threads,

@@ -90,7 +90,7 @@ int main(int argc, char** argv) {
     return simplified.super_of_element;
   };
   const auto mesh_pieces = [&](const auto& given) {
-    const auto meshed = mesh_all_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
+    const auto meshed = mesh_wanted_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
                                            std::make_shared<entity_store>(), given);
     return meshed.quality.elements;
   };

@@ -141,7 +141,7 @@ done
 expect_success "${some[@]}" --only 5,3 --only 3 --workers 1
 (($(figure subdomains) == 2)) || fault "$(figure subdomains) pieces of two"
 hash=$(figure mesh_hash)
-expect_success "${some[@]}" --only 3,5 --format msh,hdf5 --order 2
+expect_success "${some[@]}" --only 3,5 --format msh,hdf5
 [[ $(figure mesh_hash) == "$hash" ]] || fault "other pieces in another order"
 check_mesh
 expect_success mesh "$inputs/cube.off" --size 0.1 --only 0 --format none --report report.json # a mesh of one piece
@@ -152,6 +152,9 @@ for list in x 3-1 1- 2x 1.5 99999999999; do
 done
 expect_usage_error "--only: these are more than 10000000 subdomains" mesh nothing.off --only 0-99999999
 expect_usage_error "--only: --ranks divides whole meshes" mesh nothing.off --only 1 --ranks 2
+expect_usage_error "--only: where middles of edges are depends on the other pieces" mesh nothing.off --only 1 --order 2
+expect_usage_error "--only: the trace of some pieces" mesh nothing.off --only 1 --trace t.json
+expect_success mesh --size 0.1 --subdomains 6 --format none --only 1,2 "$inputs/cube.off" # the list ends before the input
 expect_usage_error "--decomposition bisection cannot make pieces by themselves" mesh nothing.off --decomposition bisection --only 1
 
 # What has no part in it is refused before anything is read.

@@ -163,7 +163,15 @@ TEST_CASE("a piece that there is not is refused by its number") {
                      }),
                      "there is no subdomain 6: there are 6, numbered from 0"));
   CHECK(testing::has(testing::refusal_of<usage_error>([] { return mesh_parts<3>({-1}); }),
-                     "there is no subdomain -1"));
+                     "from 0 on that grow, each once"));
+  CHECK(testing::has(testing::refusal_of<usage_error>([] {
+                       return mesh_parts<3>({2, 1});
+                     }),
+                     "grow, each once"));
+  CHECK(testing::has(testing::refusal_of<usage_error>([] {
+                       return mesh_parts<2>({2, 2});
+                     }),
+                     "grow, each once"));
 }
 
 TEST_CASE("pieces are selected of those that there are, each once, in order") {

@@ -10,8 +10,8 @@ namespace dovetail {
 
 /// The pieces with these numbers, and of the skeleton what bounds them. Piece k of the result is piece
 /// `wanted[k]`, point by point and element by element; the points of the skeleton keep their order. A side
-/// whose other piece is not among them has `no_id` there: with a CAD face or curve it is of the boundary,
-/// without one of the cut.
+/// whose other piece is not among them has `no_id` there. In D = 3 such a side is of the boundary of the
+/// domain or between two solids where it has a CAD face, else between two pieces of one solid.
 ///
 /// Linear in the skeleton but for sorting its curves' edges. Throws `usage_error` when numbers do not grow or
 /// there is no such piece, or when the mesh has mid-edge nodes: add these to the result.

@@ -199,6 +199,11 @@ meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source
                                 const any_executor& run_tasks, const meshing_options& options) {
   if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
     throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
+  std::vector<local_id> wanted = options.wanted;
+  sort_all(wanted);
+  if (!wanted.empty() && (wanted.front() < 0 || static_cast<std::size_t>(wanted.back()) >= count ||
+                          std::adjacent_find(wanted.begin(), wanted.end()) != wanted.end()))
+    throw usage_error("meshing_options::wanted must list subdomains that there are, each once");
   return subdomain_rounds<D>(count, source, attempts, size, run_tasks, options).run();
 }
 

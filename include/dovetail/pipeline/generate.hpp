@@ -14,6 +14,7 @@
 #include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/intersection_counts.hpp"
 #include "dovetail/pipeline/model_measure.hpp"
+#include "dovetail/pipeline/only.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -96,6 +97,7 @@ generated<D> generate(const G& given_model, const H& given_size, const Parameter
     const any_geometry model(given_model);
     const erased_sizing size(given_size);
     const auto& given = bind_parameters<D>(policies);
+    detail::require_growing_only(given.options);
     auto result = generate_from_background<D>(model, make_background<D>(model, size, given), given);
     if constexpr (D == 3 && requires { given_model.volume(); })
       if (given.options.only.empty())

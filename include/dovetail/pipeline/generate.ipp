@@ -12,6 +12,7 @@
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/pipeline/given_up.hpp"
+#include "dovetail/pipeline/only.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 
 #include <algorithm>
@@ -73,6 +74,7 @@ std::optional<generated<D>> generate_once(const any_geometry& model, background_
 template <int D, bound_parameters<D> Parameters>
 generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
                                       const Parameters& wanted) {
+  detail::require_growing_only(wanted.options);
   const stopwatch clock;
   Parameters given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);

@@ -47,7 +47,7 @@ struct generate_options {
   double background_elements_per_subdomain = 1250;
   double background_elements = 75000;
   /// Subdomains of which alone the pieces are made, growing; empty: of all. Each is, bit for bit, as in the
-  /// whole mesh, as long as in that no other subdomain fails and is merged, and in D = 2 no pieces cross.
+  /// whole mesh, as long as in that no subdomain fails, and in D = 2 no pieces cross.
   std::vector<local_id> only = {};
   double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above
   /// How heavy the simplification may make a super-element; its `subdomains` are those of the mesh, whatever

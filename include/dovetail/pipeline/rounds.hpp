@@ -97,7 +97,7 @@ public:
 
   /// The same with the pieces meshed. What neither the mesher nor a fallback can mesh is refined where a
   /// surface is at fault, or merged with a neighbour, as long as that may be; what then fails still is data.
-  /// Where only some pieces are wanted, nothing of this is repaired: that would give them other numbers.
+  /// Where only some pieces are wanted, nothing of this is repaired: nobody knows what others would do.
   /// Throws `usage_error` when one is wanted that there is not.
   std::optional<std::pair<realized<D>, meshed_pieces<D>>> mesh_pieces() {
     while (auto made = realize_boundaries()) {

@@ -10,6 +10,7 @@
 #include "dovetail/models/curved_model.hpp"
 #include "dovetail/models/discrete/given_mesh_checks.hpp"
 #include "dovetail/models/discrete/mesh_boundary.hpp"
+#include "dovetail/pipeline/only.hpp"
 #include "dovetail/sizing/background.hpp"
 #include "dovetail/solver/adapt.hpp"
 #include "dovetail/solver/gather.hpp"
@@ -267,6 +268,7 @@ erased_sizing sizes_at_points(const simplicial_mesh<D>& mesh, std::vector<double
 
 template <int D, bound_parameters<D> Parameters>
 adapted<D> mesh_again(boundary_model<D> boundary, const erased_sizing& size, const Parameters& given) {
+  detail::refuse_only(given.options, "an adaptation");
   auto background = make_background<D>(boundary.model, size, given);
   if (boundary.named_by)
     detail::name_entities(boundary, background.mesh.surface);

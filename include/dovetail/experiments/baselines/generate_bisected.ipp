@@ -9,6 +9,7 @@
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/assemble_mesh.hpp"
 #include "dovetail/pipeline/divide.hpp"
+#include "dovetail/pipeline/only.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 
@@ -22,6 +23,7 @@ namespace dovetail::baselines {
 DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const erased_sizing& size,
                                                const any_parameters<3>& given,
                                                const recursive_bisection& bisect) {
+  dovetail::detail::refuse_only(given.options, "a recursive bisection");
   const stopwatch clock;
   any_parameters<3> undivided = given;
   undivided.options.subdomains = 1;

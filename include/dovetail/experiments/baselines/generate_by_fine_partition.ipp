@@ -9,6 +9,7 @@
 #include "dovetail/experiments/baselines/generate_by_fine_partition.hpp"
 #include "dovetail/experiments/baselines/interface_angles_of_skeleton.hpp"
 #include "dovetail/experiments/baselines/labelled_elements.hpp"
+#include "dovetail/pipeline/only.hpp"
 #include "dovetail/simplification/none.hpp"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ namespace dovetail::baselines {
 DOVETAIL_INLINE generated<3> generate_by_fine_partition(const any_geometry& model, const erased_sizing& size,
                                                         const any_parameters<3>& given,
                                                         double elements_per_part) {
+  dovetail::detail::refuse_only(given.options, "a partition of a fine mesh");
   const stopwatch clock;
   any_parameters<3> whole = given;
   whole.options.subdomains = 1;
@@ -51,6 +53,7 @@ DOVETAIL_INLINE generated<3> generate_by_fine_partition(const any_geometry& mode
                                  {.store = given.options.store, .on_progress = given.options.on_progress});
   made.mesh = std::move(improved.mesh);
   made.quality = improved.quality;
+  made.subdomains = made.mesh.counts.size();
   parted.summary.name = "fine partition";
   made.summary.children.push_back(std::move(parted.summary));
   made.summary.children.push_back(std::move(improved.summary));

@@ -3,22 +3,15 @@
 /// that the mesh conforms.
 #pragma once
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/models/occt/joined_triangulation.hpp"
 #include "dovetail/models/occt/repair.hpp"
 #include "dovetail/models/occt/topology.hpp"
-#include "dovetail/models/shared_contacts.hpp"
 
 #include <BOPAlgo_Builder.hxx>
-#include <Standard_Failure.hxx>
-#include <Standard_OutOfMemory.hxx>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -146,37 +139,11 @@ inline bool imprinted(const std::vector<TopoDS_Shape>& bodies, attributed_shape&
   return true;
 }
 
-/// Whether bodies surely share all of their contacts, seen on triangles: then there is nothing to intersect,
-/// which takes seconds per pair of spline surfaces. Triangles are made finer as long as they are only near
-/// each other.
-inline bool shares_all_contacts(const brep& data) {
-  const double size = size_of(data.shape);
-  constexpr double angle = 0.35; // radians
-  constexpr double margin = 3.3; // times the deflection: that of both triangles, and what OCCT exceeds it by
-  try {
-    for (const double deflection : {3e-4, 6e-5}) { // finer ones may take OCCT longer than to intersect
-      const auto triangles = joined_triangulation(data, deflection * size, angle);
-      const double apart = unshared_distance(triangles, data.topology, margin * deflection * size);
-      if (apart == 0)
-        return false;
-      if (std::isinf(apart))
-        return !has_body_inside_another(triangles, data.topology);
-    }
-    return false;
-  } catch (const geometry_error&) { // OCCT has no triangles of a face, or they are not closed
-    return false;
-  } catch (const Standard_OutOfMemory&) {
-    throw std::bad_alloc();
-  } catch (const Standard_Failure&) {
-    return false;
-  }
-}
-
 /// Makes the contacts of solids, with each other and with faces beside them, common; those with faces only
 /// where that succeeds. Throws `geometry_error` when the common boundary of solids cannot be made.
 inline void imprint_touching_bodies(attributed_shape& input, brep& data, report& made) {
   const auto bodies = bodies_of(data);
-  if (close_pairs(data, bodies).empty() || shares_all_contacts(data) || imprinted(bodies, input, data, made))
+  if (close_pairs(data, bodies).empty() || imprinted(bodies, input, data, made))
     return;
   const std::vector<TopoDS_Shape> solids(data.solids.begin(), data.solids.end());
   const auto pairs = close_pairs(data, solids);

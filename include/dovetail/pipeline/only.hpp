@@ -1,0 +1,28 @@
+/// @file
+/// Checks of `generate_options::only`.
+#pragma once
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/pipeline/parameters.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+namespace dovetail::detail {
+
+/// Throws `usage_error` where the subdomains do not grow, each once, from 0.
+inline void require_growing_only(const generate_options& options) {
+  const auto& only = options.only;
+  if (std::adjacent_find(only.begin(), only.end(), std::greater_equal<>()) != only.end() ||
+      (!only.empty() && only.front() < 0))
+    throw usage_error("generate_options::only lists subdomains from 0 on that grow, each once");
+}
+
+/// Throws `usage_error` where only some pieces are asked for.
+inline void refuse_only(const generate_options& options, const std::string& who) {
+  if (!options.only.empty())
+    throw usage_error(who + " makes whole meshes: generate_options::only must be empty");
+}
+
+} // namespace dovetail::detail
