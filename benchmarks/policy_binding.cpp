@@ -91,7 +91,7 @@ int main(int argc, char** argv) {
   };
   const auto mesh_pieces = [&](const auto& given) {
     const auto meshed = mesh_wanted_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
-                                           std::make_shared<entity_store>(), given);
+                                              std::make_shared<entity_store>(), given);
     return meshed.quality.elements;
   };
   const auto generate_all = [&](const auto& given) {

@@ -7,6 +7,7 @@
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/pipeline/generate.hpp"
+#include "dovetail/pipeline/only.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "support/refusal.hpp"
 
@@ -172,6 +173,30 @@ TEST_CASE("a piece that there is not is refused by its number") {
                        return mesh_parts<2>({2, 2});
                      }),
                      "grow, each once"));
+}
+
+TEST_CASE("who meshes subdomains refuses numbers that there are not, and two of one") {
+  const auto refusal = [](std::vector<local_id> wanted) {
+    const meshing_options options{.wanted = std::move(wanted)};
+    return testing::refusal_of<usage_error>([&] {
+      return mesh_subdomains<3>(
+          2, [](local_id) { return subdomain_input{}; }, mesher::native{}, improvement::native{},
+          refined_sizing{any_sizing(uniform_size(1))}, any_executor(parallel::serial{}), options);
+    });
+  };
+  for (const std::vector<local_id>& wanted : {std::vector<local_id>{2}, {-1}, {0, 0}})
+    CHECK(testing::has(refusal(wanted), "subdomains that there are, each once"));
+}
+
+TEST_CASE("what makes whole meshes only says so") {
+  generate_options options;
+  CHECK_NOTHROW(dovetail::detail::refuse_only(options, "this test"));
+  options.only = {0};
+  CHECK(testing::has(testing::refusal_of<usage_error>([&] {
+                       dovetail::detail::refuse_only(options, "this test");
+                       return 0;
+                     }),
+                     "this test makes whole meshes"));
 }
 
 TEST_CASE("pieces are selected of those that there are, each once, in order") {
