@@ -87,8 +87,8 @@ std::vector<local_id> subdomains_in(const std::vector<std::string>& list) {
                                "' is neither the number of a subdomain nor a range like 12-15");
     if (numbers.size() + static_cast<std::size_t>(*last - *first) >= most)
       throw command_line_error("--only: these are more than " + std::to_string(most) + " subdomains");
-    for (local_id number = *first; number <= *last; ++number)
-      numbers.push_back(number);
+    for (local_id k = 0; k <= *last - *first; ++k) // the last number may be the largest that there is
+      numbers.push_back(*first + k);
   }
   sort_unique(numbers);
   return numbers;

@@ -147,6 +147,7 @@ check_mesh
 expect_success mesh "$inputs/cube.off" --size 0.1 --only 0 --format none --report report.json # a mesh of one piece
 [[ $(figure of_subdomains) == 1 ]] || fault "a mesh of one piece is divided for --only"
 expect_error "there is no subdomain 6: there are 6, numbered from 0" "${some[@]}" --only 2,6
+expect_error "there is no subdomain 2147483646: there are 6" "${some[@]}" --only 2147483646-2147483647
 for list in x 3-1 1- 2x 1.5 99999999999; do
   expect_usage_error "--only: '$list' is neither the number of a subdomain nor a range like 12-15" mesh nothing.off --only $list
 done
