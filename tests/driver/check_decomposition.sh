@@ -130,14 +130,23 @@ check_mesh() { # the one that was just made
 some=(mesh "$inputs/cube.off" --size 0.1 --subdomains 6 --report report.json)
 expect_success "${some[@]}"
 elements=$(figure elements)
+sides=$(figure boundary_triangles)
 sum=0
+sum_of_sides=0
 for only in 0 1-2,4 5,3; do
   expect_success "${some[@]}" --only $only
   (($(figure of_subdomains) == 6)) || fault "of $(figure of_subdomains) subdomains"
   sum=$((sum + $(figure elements)))
+  sum_of_sides=$((sum_of_sides + $(figure boundary_triangles)))
   check_mesh
 done
 ((sum == elements)) || fault "$sum elements in pieces, and $elements in all"
+((sum_of_sides == sides)) || fault "$sum_of_sides triangles of pieces on the surface, and $sides in all"
+expect_success "${some[@]}" --out "$inputs/piece" --only 1
+expect_success "${some[@]}" --out "$inputs/piece" --only 2 --resume # the run before is another one
+grep -q "this run is finished" "$sandbox/stdout" && fault "another piece is taken for the one that is there"
+expect_success "${some[@]}" --out "$inputs/piece" --only 2 --resume
+grep -q "this run is finished" "$sandbox/stdout" || fault "a finished piece is made again"
 expect_success "${some[@]}" --only 5,3 --only 3 --workers 1
 (($(figure subdomains) == 2)) || fault "$(figure subdomains) pieces of two"
 hash=$(figure mesh_hash)
