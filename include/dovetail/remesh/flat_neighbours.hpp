@@ -29,7 +29,8 @@ public:
 
   bool is_flat(local_id face) { return plane_of(face).has_value(); }
 
-  /// A face, and the points of its boundary. Whether it is flat is asked of the model only where that matters.
+  /// A face, and the points of its boundary. Whether it is flat is asked of the model only where that
+  /// matters.
   void add(local_id face, std::span<const local_id> boundary) {
     for (const local_id p : boundary)
       if (std::binary_search(points_.begin(), points_.end(), p) && is_flat(face))
