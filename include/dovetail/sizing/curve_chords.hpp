@@ -27,15 +27,15 @@ struct curve_chord {
 
 /// A chord as a face passes it.
 struct passed_chord {
-  const curve_chord* line;
-  local_id curve;
-  int coedge; ///< of the face
+  const curve_chord* line; ///< the chord
+  local_id curve;          ///< that it is of
+  int coedge;              ///< of the face
 };
 
 /// The chords that a face passes, which can be searched.
 struct face_chords {
-  std::vector<passed_chord> passed;
-  box_tree tree; ///< of their boxes
+  std::vector<passed_chord> passed; ///< coedge by coedge
+  box_tree tree;                    ///< of their boxes
 
   explicit face_chords(std::vector<passed_chord> chords) : passed(std::move(chords)), tree(boxes()) {}
 

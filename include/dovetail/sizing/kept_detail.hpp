@@ -43,6 +43,10 @@ inline double elements_of_growth(double from, double to, double growth, int dime
 }
 
 /// The same along a line on a surface, per length of it: where a size grows away from all of its points.
+/// \param from the size on the line
+/// \param to the size that it grows to; larger
+/// \param growth of the size per length
+/// \param dimension of the elements, 3 or 2
 inline double elements_of_growth_along(double from, double to, double growth, int dimension = 3) {
   const double reach = (to - from) / growth;
   if (dimension == 2) {
