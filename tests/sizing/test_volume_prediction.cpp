@@ -249,6 +249,26 @@ TEST_CASE("a wall between two solids is one for both") {
         doctest::Approx(2 * sizing::elements_in_thin_walls(alone, uniform_size(size), density)));
 }
 
+TEST_CASE("coarse sizes are at most 2.5 times a wall's thickness, where walls have many of the elements") {
+  constexpr double size = 0.02, thick = 0.03, density = 8, wanted = 6;
+  const double per_thickness = 2.5 * thick / size;
+  const auto scale_of = [&](const simplicial_mesh<2>& surface, double elements) {
+    return sizing::scale_within_walls(surface, uniform_size(size), density, elements, wanted);
+  };
+  simplicial_mesh<2> sheet;
+  append_box(sheet, {0, 0, 0}, {1, 1, thick});
+  const double in_sheet = density * thick / (size * size * size);
+  CHECK(scale_of(sheet, in_sheet) == doctest::Approx(per_thickness).epsilon(0.01));
+  // With a block beside it of six times as many elements the sheet does not decide.
+  simplicial_mesh<2> with_block = sheet;
+  append_box(with_block, {0, 0, 1}, {1, 1, 1 + 6 * thick});
+  CHECK(scale_of(with_block, 7 * in_sheet) == wanted);
+  CHECK(scale_of(with_block, 3 * in_sheet) == doctest::Approx(per_thickness).epsilon(0.01));
+  simplicial_mesh<2> thin; // for the size itself
+  append_box(thin, {0, 0, 0}, {1, 1, 0.2 * size});
+  CHECK(scale_of(thin, 3 * elements_per_unit<2> / (size * size)) == 1);
+}
+
 TEST_CASE("a ray meets the nearest triangle in its way, not the one it starts from") {
   simplicial_mesh<2> boxes;
   append_box(boxes, {0, 0, 0}, {1, 1, 1});

@@ -63,13 +63,13 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
                                        options.on_progress);
     };
     auto surface = surface_at(coarse);
-    if (D == 3 && options.coarse_scale == 0 && result.plan.subdomains > 1 &&
+    if (D == 3 && result.plan.largest_scale > result.plan.coarse_scale &&
         has_form_for_background(given.mesh_it) &&
         static_cast<double>(surface.surface.mesh.elements.size()) >
             result.plan.subdomains * options.background_elements_per_subdomain) {
       // Small sizes at the surface alone make more elements than are needed; where they are made without
       // regard to their angles, it takes so many to find clean interfaces among them.
-      result.plan.coarse_scale *= 2;
+      result.plan.coarse_scale = result.plan.largest_scale;
       coarse = coarse_size(result.size, result.plan.coarse_scale, model.bounds());
       surface = surface_at(coarse);
     }

@@ -37,10 +37,12 @@ struct mesh_plan {
   double relative_error = 0;     ///< estimated: of the integral of sizes, and of what meshers make of it
   int subdomains = 1;            ///< how many parts the background mesh is to be cut into
   double coarse_scale = 1;       ///< factor between coarse and final size
+  double largest_scale = 0;      ///< what thin walls leave of twice that factor; 0: it was given
   double size_scale = 1; ///< factor between final size and that given (`generate_options::enlarged_above`)
 
   using fields = field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error, ///< what is stored
-                            &mesh_plan::subdomains, &mesh_plan::coarse_scale, &mesh_plan::size_scale>;
+                            &mesh_plan::subdomains, &mesh_plan::coarse_scale, &mesh_plan::largest_scale,
+                            &mesh_plan::size_scale>;
 };
 
 /// The field given as the plan has it.

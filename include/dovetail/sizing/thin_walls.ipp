@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/thin_walls.hpp"
@@ -88,10 +89,17 @@ DOVETAIL_INLINE double ray_search::distance(vec3 from, vec3 direction, double re
   return best;
 }
 
-DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface, const any_sizing& h,
-                                              double density) {
-  // Triangles of edge length h have 4 / sqrt(3) per square of it; the prism between two is three tetrahedra.
-  const double per_side = 1.5 * elements_per_unit<2>;
+namespace detail {
+
+/// Elements at a wall per area of one of its sides and per inverse square of the size, as there are at least:
+/// triangles of edge length h have 4 / sqrt(3) per square of it; the prism between two is three tetrahedra.
+inline constexpr double elements_per_side = 1.5 * elements_per_unit<2>;
+
+/// Calls `visit(size, thickness, area)` for samples of a surface, about as many per element on it everywhere;
+/// a wall is as thick as a ray from the sample is long, up to `reach` times the size.
+template <class Visit>
+void for_each_wall_sample(const simplicial_mesh<2>& surface, const any_sizing& h, double reach,
+                          const Visit& visit) {
   constexpr double samples = 20000;
   const std::size_t count = surface.elements.size();
   std::vector<std::array<vec3, 3>> corners(count);
@@ -105,22 +113,50 @@ DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface,
     total += expected[t];
   }
   if (!(total > 0) || !std::isfinite(total))
-    return 0;
+    return;
   const ray_search rays(surface);
-  double elements = 0;
   for (std::size_t t = 0; t < count; ++t) {
     const vec3 inwards = -normalized(cross(corners[t][1] - corners[t][0], corners[t][2] - corners[t][0]));
     const auto n = static_cast<std::size_t>(std::ceil(samples * expected[t] / total));
     const double part = measure_of<2>(corners[t]) / static_cast<double>(n);
     for (std::size_t k = 0; k < n && part > 0; ++k) {
-      const vec3 p = detail::point_of_triangle(corners[t], k);
+      const vec3 p = point_of_triangle(corners[t], k);
       const double size = dovetail::checked_size(h, p);
-      const double thick = 2 * per_side * size / density; // from there on the integral has as many
-      const double thickness = rays.distance(p, inwards, thick);
-      elements += part * std::max(0.0, per_side - 0.5 * density * thickness / size) / (size * size);
+      visit(size, rays.distance(p, inwards, reach * size), part);
     }
   }
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface, const any_sizing& h,
+                                              double density) {
+  constexpr double per_side = detail::elements_per_side;
+  const double thick = 2 * per_side / density; // from there on the integral has as many
+  double elements = 0;
+  detail::for_each_wall_sample(surface, h, thick, [&](double size, double thickness, double area) {
+    elements += area * std::max(0.0, per_side - 0.5 * density * thickness / size) / (size * size);
+  });
   return elements;
+}
+
+DOVETAIL_INLINE double scale_within_walls(const simplicial_mesh<2>& surface, const any_sizing& h,
+                                          double density, double elements, double wanted) {
+  constexpr double sizes_per_thickness = 2.5, share = 0.2;
+  std::vector<std::pair<double, double>> walls; // the largest factor there, and the elements
+  detail::for_each_wall_sample(
+      surface, h, wanted / sizes_per_thickness, [&](double size, double thickness, double area) {
+        const double ratio = thickness / size, factor = sizes_per_thickness * ratio;
+        if (factor < wanted)
+          walls.push_back(
+              {factor, area / (size * size) * std::max(detail::elements_per_side, 0.5 * density * ratio)});
+      });
+  sort_all(walls);
+  double within = 0;
+  for (const auto& [factor, in_wall] : walls)
+    if (within += in_wall; within > share * elements)
+      return std::clamp(factor, 1.0, wanted);
+  return wanted;
 }
 
 } // namespace dovetail::sizing
