@@ -5,7 +5,7 @@
 # within their layer, and stages (3), which do not include each other: the pipeline, a module of its own, joins them.
 # Other libraries are included only where the list says so: all else compiles with nothing installed but a compiler.
 set -euo pipefail
-source "$(dirname "${BASH_SOURCE[0]}")/modules.sh"
+source cmake/modules.sh
 cd include/dovetail
 
 problems=0

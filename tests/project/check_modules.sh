@@ -10,7 +10,7 @@ cd "$1"
 work=$2
 wanted=$3
 compiler=$4
-source tests/project/modules.sh
+source cmake/modules.sh
 [[ " ${modules[*]} " == *" $wanted "* ]] || { echo "there is no module $wanted"; exit 1; }
 
 rm -rf "$work"
