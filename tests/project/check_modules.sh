@@ -55,7 +55,11 @@ declarations=(-DDOVETAIL_COMPILED -DDOVETAIL_COMPILED_OCCT)
 "$compiler" "${flags[@]}" "${declarations[@]}" -fsyntax-only all.cpp
 echo "$wanted: $count headers, $(files_of all.d | grep -c "^$work/include/") files of the library are read"
 
-# What these checks are worth: a header of a module further up, or of another library, is found.
+# What these checks are worth, seen once: a header of a module further up, or of another library, is found.
+if [[ $wanted != core ]]; then
+  rm -rf "$work"
+  exit
+fi
 mkdir other
 touch other/library.h
 first=include/$(sed -n '1s/.*"\(.*\)"/\1/p' all.cpp)
