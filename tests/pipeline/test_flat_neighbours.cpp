@@ -53,6 +53,19 @@ TEST_CASE("the tip of half a cone has no triangle in the flat side") {
     require_good(half_a_turn(), size, pi * 0.16 / 6);
 }
 
+TEST_CASE("nor has it when the surface is meshed alone, in one piece or in several") {
+  for (const double size : {0.1, 0.05, 0.02}) {
+    CAPTURE(size);
+    for (const int pieces : {1, 4}) {
+      const auto made = generate<2>(cone_cut_in_half(), uniform_size(size),
+                                    parameters<>{}.with_options({.subdomains = pieces}));
+      REQUIRE(made.failures.empty());
+      CHECK(io::check_distributed(made.mesh).valid());
+      CHECK(made.quality.min_dihedral_deg > 6);
+    }
+  }
+}
+
 TEST_CASE("points share a plane on one flat face, or on two in one plane, and on no curved one") {
   const any_geometry model(half_a_turn());
   std::vector<local_id> flat, curved;

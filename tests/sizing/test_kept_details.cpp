@@ -87,6 +87,71 @@ TEST_CASE("sizes grow from a vertex that is near to another curve, across a face
   CHECK(least_angle(notched(0.01), fitted) > 20);
 }
 
+TEST_CASE("sizes are small all along a face that is far narrower than they are") {
+  const auto strip = [](double left, double right) { // as wide as that at its ends
+    plane_drawing drawing;
+    drawing.polygons = {{{{0, 0}, {1, 0}, {1, right}, {0, left}}, "strip"}};
+    return any_geometry(plane_domain(drawing));
+  };
+  const any_sizing given = uniform_size(0.1);
+  const any_sizing even = finer_at_details(strip(0.01, 0.01), given, {.dimension = 2});
+  for (const double x : {0.3, 0.5, 0.66})
+    for (const double y : {0.0, 0.005, 0.01}) {
+      CHECK(even({x, y, 0}) > 0.0199);
+      CHECK(even({x, y, 0}) < 0.02 + 0.4 * 0.0112); // half a width and half a size from the next place
+    }
+  CHECK(even({0.5, 0.4, 0}) == 0.1);
+  const any_sizing tapered = finer_at_details(strip(0.01, 0.04), given, {.dimension = 2});
+  CHECK(tapered({0.25, 0, 0}) == doctest::Approx(0.035).epsilon(0.15));
+  CHECK(tapered({0.9, 0, 0}) > 0.09); // not narrow there
+  CHECK(finer_at_details(strip(0.03, 0.03), given)({0.5, 0, 0}) == 0.1);
+
+  plane_drawing wedge; // narrows down to a corner
+  wedge.polygons = {{{{0, 0}, {1, 0}, {1, 0.05}}, "wedge"}};
+  CHECK(finer_at_details(any_geometry(plane_domain(wedge)), given)({0.3, 0, 0}) == 0.1);
+
+  plane_drawing bridge; // between the boundary and a round hole, no vertex of which is near to it
+  bridge.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, "square"}};
+  auto& hole = bridge.polygons.emplace_back();
+  hole.name = "hole";
+  for (int k = 0; k < 8; ++k) {
+    const double angle = 3.14159265 * (k + 0.5) / 4;
+    hole.points.push_back({0.5 + 0.25 * std::cos(angle), 0.24 + 0.25 * std::sin(angle)});
+  }
+  const any_sizing at_bridge = finer_at_details(any_geometry(plane_domain(bridge)), given);
+  CHECK(at_bridge({0.5, 0, 0}) < 0.04);
+  CHECK(at_bridge({0.5, 1, 0}) == 0.1);
+
+  const auto least_angle = [&](const any_sizing& size) {
+    const auto made = generate<2>(strip(0.01, 0.01), size, parameters<>{});
+    REQUIRE(made.failures.empty());
+    return made.quality.min_dihedral_deg;
+  };
+  CHECK(least_angle(given) < 12);
+  CHECK(least_angle(even) > 15);
+}
+
+TEST_CASE("a strip that needs too many elements stays as it is") {
+  plane_drawing drawing;
+  drawing.polygons = {{{{0, 0}, {1, 0}, {1, 0.005}, {0, 0.005}}, "strip"}};
+  const any_geometry model = plane_domain(drawing);
+  for (const int dimension : {2, 3}) {
+    const double side = 0.5 * sizing::elements_of_growth_along(0.01, 0.1, 0.4, dimension);
+    const detail_fit fit =
+        details_to_fit(model, uniform_size(0.1), {.most_elements = 1e9, .dimension = dimension});
+    CHECK(fit.fitted == 4); // two short edges, two long ones
+    CHECK(fit.left == 0);
+    CHECK(fit.elements > 2 * side);
+    const double ends = fit.elements - 2 * side;
+    CHECK(ends < 2.1 * sizing::elements_of_growth(0.005, 0.1, 0.4, dimension));
+    const detail_fit most =
+        details_to_fit(model, uniform_size(0.1), {.most_elements = side, .dimension = dimension});
+    CHECK(most.fitted < 4);
+    CHECK(most.left > 0);
+    CHECK(most.elements_of_all == doctest::Approx(fit.elements));
+  }
+}
+
 TEST_CASE("where no edge is short the field is the one given") {
   const any_sizing given = [](vec3) { return 0.1; };
   const auto is_given = [&](const any_sizing& size) {
@@ -145,6 +210,16 @@ TEST_CASE("the elements that growing sizes add are an integral") {
     }
     CHECK(sizing::elements_of_growth(1, to, growth, 2) ==
           doctest::Approx(4 / std::sqrt(3.0) * 2 * 3.14159265 * sum).epsilon(0.001));
+    double in_plane = 0, in_space = 0; // beside a line, per length
+    for (int k = 0; k < steps; ++k) {
+      const double r = reach * (k + 0.5) / steps, size = 1 + growth * r;
+      in_plane += (1 / (size * size) - 1 / (to * to)) * reach / steps;
+      in_space += r * (1 / std::pow(size, 3) - 1 / std::pow(to, 3)) * reach / steps;
+    }
+    CHECK(sizing::elements_of_growth_along(1, to, growth, 2) ==
+          doctest::Approx(2 * 4 / std::sqrt(3.0) * in_plane).epsilon(0.001));
+    CHECK(sizing::elements_of_growth_along(1, to, growth) ==
+          doctest::Approx(3.14159265 * 6 * std::sqrt(2.0) * in_space).epsilon(0.001));
   }
 }
 

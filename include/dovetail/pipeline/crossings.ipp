@@ -4,6 +4,7 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/geometry/coplanar.hpp"
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/pipeline/crossings.hpp"
@@ -20,16 +21,13 @@ namespace dovetail::detail {
 
 DOVETAIL_INLINE bool lies_in_one_plane(const any_geometry& model) {
   std::optional<surface_frame> first;
-  const double tolerance = 1e-9 * model.bounds().diagonal();
   for (std::size_t f = 0; f < model.topology().faces.size(); ++f) {
     const auto plane = model.plane_of_face(static_cast<local_id>(f));
     if (!plane)
       return false;
     if (!first)
       first = plane;
-    const vec3 normal = normalized(cross(first->du, first->dv));
-    if (std::abs(dot(plane->point - first->point, normal)) > tolerance ||
-        norm(cross(normalized(cross(plane->du, plane->dv)), normal)) > 1e-9)
+    if (!are_coplanar(*first, *plane, model.bounds().diagonal(), 1e-9))
       return false;
   }
   return true;

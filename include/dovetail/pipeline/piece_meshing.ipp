@@ -35,7 +35,7 @@ DOVETAIL_INLINE piece_source<2>
 source_of_pieces(const any_geometry& model, const simplicial_background<2>& mesh, const realized<2>& skeleton,
                  const std::shared_ptr<const sides_of_subdomains>& sorted, bool own_model) {
   auto rule =
-      std::make_shared<const chord_rule>(skeleton.coarse, skeleton.fine, skeleton.lines, mesh.surface);
+      std::make_shared<const chord_rule>(model, skeleton.coarse, skeleton.fine, skeleton.lines, mesh.surface);
   auto regions = std::make_shared<const std::vector<std::vector<local_id>>>(
       regions_of_subdomains(skeleton.coarse, skeleton.material_of_subdomain.size()));
   return [&model, &mesh, &skeleton, sorted, rule, regions, own_model](local_id s) {

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/coplanar.hpp"
 
 #include <algorithm>
 #include <array>
@@ -43,8 +44,9 @@ public:
     if (at_p == faces_at_.end() || at_q == faces_at_.end())
       return false;
     return std::any_of(at_p->second.begin(), at_p->second.end(), [&](local_id f) {
-      return std::any_of(at_q->second.begin(), at_q->second.end(),
-                         [&](local_id g) { return f == g || are_coplanar(*plane_of(f), *plane_of(g)); });
+      return std::any_of(at_q->second.begin(), at_q->second.end(), [&](local_id g) {
+        return f == g || are_coplanar(*plane_of(f), *plane_of(g), model_.bounds().diagonal(), 1e-6);
+      });
     });
   }
 
@@ -54,13 +56,6 @@ private:
     if (is_new)
       found->second = model_.plane_of_face(face);
     return found->second;
-  }
-
-  bool are_coplanar(const surface_frame& f, const surface_frame& g) const {
-    constexpr double tolerance = 1e-6;
-    const vec3 n = normalized(cross(f.du, f.dv)), m = normalized(cross(g.du, g.dv));
-    return norm(cross(n, m)) < tolerance &&
-           std::abs(dot(n, g.point - f.point)) < tolerance * model_.bounds().diagonal();
   }
 
   const any_geometry& model_;

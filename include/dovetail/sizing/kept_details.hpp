@@ -2,64 +2,24 @@
 /// Sizes that fit the details of a model that are much smaller than the size, and stay all the same.
 #pragma once
 
-#include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/fields.hpp"
-#include "dovetail/core/nearest_point.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/compose.hpp"
+#include "dovetail/sizing/curve_chords.hpp"
 #include "dovetail/sizing/erased.hpp"
-#include "dovetail/sizing/point_sizes.hpp"
+#include "dovetail/sizing/kept_detail.hpp"
+#include "dovetail/sizing/narrow_strips.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <vector>
 
 namespace dovetail {
 
-/// Which details sizes are to fit, and how far that goes.
-struct kept_detail_options {
-  double share_of_size = 0.25;   ///< up to this share of the size there a length is a detail's; at most 1
-  double touching_share = 0.001; ///< vertices nearer to a curve than this share of the size are on it
-  double least_size = 0;         ///< no size becomes smaller, nor than `touching_share` of what it was
-  double growth = 0.4;           ///< of the size per length away from details
-  double most_elements = 2e5;    ///< details that need more, about, stay as they are, the costly ones first
-  int dimension = 3;             ///< of the elements
-};
-
 namespace sizing {
-
-/// About how many elements a size that grows from a place on a surface makes more than the one that it grows
-/// to: the integral of the inverse cube over half a ball, or of the inverse square over a disk, of which a
-/// plane domain has only half. O(1), throws nothing.
-/// \param from the size at the place
-/// \param to the size that it grows to; larger
-/// \param growth of the size per length
-/// \param dimension of the elements, 3 or 2
-inline double elements_of_growth(double from, double to, double growth, int dimension = 3) {
-  const double share = from / to, reached = 1 - share;
-  if (dimension == 2) {
-    constexpr double per_square = 4 / std::numbers::sqrt3; // of regular triangles
-    const double inside = -std::log(share) - reached, before = reached * reached / 2;
-    return per_square * 2 * std::numbers::pi * (inside - before) / (growth * growth);
-  }
-  constexpr double per_cube = 6 * std::numbers::sqrt2; // of regular tetrahedra
-  const double inside = -std::log(share) + 2 * share - 0.5 * share * share - 1.5;
-  const double before = reached * reached * reached / 3;
-  return per_cube * 2 * std::numbers::pi * (inside - before) / std::pow(growth, 3);
-}
-
-/// A detail that sizes are to fit.
-struct kept_detail {
-  double size;              ///< how small they should be
-  std::vector<vec3> places; ///< where
-  double elements;          ///< about how many elements fitting it adds
-};
 
 /// The details of a model that are small for a size.
 template <geometry_model G>
@@ -67,32 +27,20 @@ class kept_details {
 public:
   /// All must outlive the object.
   kept_details(const G& model, const any_sizing& size, const kept_detail_options& options)
-      : model_(model), size_(size), options_(options), chords_of_(model.topology().curves.size()),
+      : model_(model), size_(size), options_(options), chords_(model, size),
         joined_to_(model.topology().vertices.size()) {
-    for (std::size_t c = 0; c < chords_of_.size(); ++c)
-      if (!model.topology().curves[c].degenerate) {
-        chords_of_[c] = chords_of_curve(static_cast<local_id>(c));
+    for (std::size_t c = 0; c < model.topology().curves.size(); ++c)
+      if (!model.topology().curves[c].degenerate)
         find_if_short(static_cast<local_id>(c));
-      }
     for (std::size_t f = 0; f < model.topology().faces.size(); ++f)
       find_narrow_places(static_cast<local_id>(f));
+    narrow_strips<G>(model, size, options, chords_).add_to(details_);
   }
 
   /// All of them.
   const std::vector<kept_detail>& list() const { return details_; }
 
 private:
-  /// A part of a curve as a straight line.
-  struct chord {
-    std::array<vec3, 2> ends; ///< in the curve's direction
-    double middle = 0;        ///< parameter of the curve
-  };
-  /// A chord as a face passes it.
-  struct passed_chord {
-    const chord* line;
-    local_id curve;
-    int coedge;
-  };
   /// The nearest place across a face that is found so far.
   struct nearest_place {
     double distance;
@@ -102,33 +50,12 @@ private:
   const geometry_topology& topology() const { return model_.topology(); }
   double size_at(vec3 p) const { return checked_size(size_, p); }
 
-  /// Half as long as the size in the middle of the curve, but for a least and a largest number of them.
-  std::vector<chord> chords_of_curve(local_id c) const {
-    constexpr int fewest = 8, most = 1024;
-    const auto& range = topology().curves[c].t;
-    const auto parameter = [&](double share) { return range[0] + share * (range[1] - range[0]); };
-    const auto point = [&](double share) { return model_.curve_point(c, parameter(share)); };
-    double rough = 0;
-    for (int k = 0; k < fewest; ++k)
-      rough += distance(point(1.0 * k / fewest), point((k + 1.0) / fewest));
-    const double wanted = std::ceil(2 * rough / size_at(point(0.5)));
-    const int count = wanted < most ? std::max(fewest, static_cast<int>(wanted)) : most;
-    std::vector<chord> chords;
-    vec3 from = point(0);
-    for (int k = 1; k <= count; ++k) {
-      const vec3 to = point(1.0 * k / count);
-      chords.push_back({{from, to}, parameter((k - 0.5) / count)});
-      from = to;
-    }
-    return chords;
-  }
-
   void find_if_short(local_id c) {
-    const auto& chords = chords_of_[c];
+    const auto& chords = chords_.of(c);
     const auto& ends = topology().curves[c].vertices;
     double length = 0;
-    for (const chord& one : chords)
-      length += distance(one.ends[0], one.ends[1]);
+    for (const curve_chord& one : chords)
+      length += one.length();
     if (ends[0] == ends[1])
       length /= 3; // edges that a closed curve has at least
     const vec3 middle = chords[chords.size() / 2].ends[0];
@@ -141,49 +68,38 @@ private:
 
   /// Where, across a face, a vertex of it is near to a curve of it that does not end there.
   void find_narrow_places(local_id f) {
-    const auto& coedges = topology().faces[f].coedges;
-    std::vector<passed_chord> passed;
     std::vector<local_id> vertices;
-    for (std::size_t k = 0; k < coedges.size(); ++k) {
-      const local_id c = coedges[k].curve;
-      for (const chord& one : chords_of_[c])
-        passed.push_back({&one, c, static_cast<int>(k)});
-      if (!chords_of_[c].empty())
-        for (const local_id v : topology().curves[c].vertices)
+    for (const auto& coedge : topology().faces[f].coedges)
+      if (!chords_.of(coedge.curve).empty())
+        for (const local_id v : topology().curves[coedge.curve].vertices)
           vertices.push_back(v);
-    }
     sort_unique(vertices);
-    std::vector<box3> boxes(passed.size());
-    for (std::size_t k = 0; k < passed.size(); ++k)
-      for (const vec3 end : passed[k].line->ends)
-        boxes[k].include(end);
-    const box_tree tree(boxes);
+    const face_chords chords = chords_.passed_by(f);
     for (const local_id v : vertices)
-      find_narrow_place(f, v, passed, tree);
+      find_narrow_place(f, v, chords);
   }
 
-  void find_narrow_place(local_id f, local_id v, const std::vector<passed_chord>& passed,
-                         const box_tree& tree) {
+  void find_narrow_place(local_id f, local_id v, const face_chords& chords) {
     const vec3 p = topology().vertices[v].point;
     const double size = size_at(p);
     const auto ways_in = ways_into_face(f, v);
     nearest_place best{options_.share_of_size * size};
-    tree.for_each_near(
+    chords.tree.for_each_near(
         p,
         [&](const box3& box, std::size_t) {
           return distance_squared(box, p) < best.distance * best.distance;
         },
         [&](local_id k) {
-          const vec3 foot = foot_on(*passed[k].line, p);
+          const passed_chord& chord = chords.passed[k];
+          const vec3 foot = foot_on(*chord.line, p);
           const double away = distance(foot, p);
-          if (away < best.distance && !is_joined(v, passed[k].curve) &&
-              away > touching_distance(v, passed[k].curve, size) &&
-              is_across_face(f, passed[k], ways_in, p, foot))
-            best = {away, &passed[k]};
+          if (away < best.distance && !is_joined(v, chord.curve) &&
+              away > touching_distance(v, chord.curve, size) && is_across_face(f, chord, ways_in, p, foot))
+            best = {away, &chord};
         });
     if (best.on == nullptr)
       return;
-    const vec3 foot = foot_on(best.on->curve, best.on->line->middle, p);
+    const vec3 foot = chords_.foot_on(*best.on, p);
     if (const double away = distance(foot, p);
         away > touching_distance(v, best.on->curve, size) && away < options_.share_of_size * size)
       add(away, {p, foot});
@@ -203,15 +119,6 @@ private:
                     topology().curves[c].tolerance + topology().vertices[v].tolerance);
   }
 
-  static vec3 foot_on(const chord& line, vec3 p) {
-    const auto [a, b] = nearest_on_segment(line.ends[0], line.ends[1], p);
-    return a * line.ends[0] + b * line.ends[1];
-  }
-  vec3 foot_on(local_id c, double seed, vec3 p) const {
-    const auto& range = topology().curves[c].t;
-    return model_.curve_point(c, std::clamp(model_.project_to_curve(c, p, seed), range[0], range[1]));
-  }
-
   /// From the passages of a face that end at a vertex, square to them into the face.
   std::vector<vec3> ways_into_face(local_id f, local_id v) const {
     std::vector<vec3> ways;
@@ -220,9 +127,9 @@ private:
       const local_id c = coedges[k].curve;
       const auto& ends = topology().curves[c].vertices;
       for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
-        if (ends[end] == v && !chords_of_[c].empty())
-          ways.push_back(into_face(
-              f, {end == 0 ? &chords_of_[c].front() : &chords_of_[c].back(), c, static_cast<int>(k)}));
+        if (const auto& chords = chords_.of(c); ends[end] == v && !chords.empty())
+          ways.push_back(
+              chords_.into_face(f, {end == 0 ? &chords.front() : &chords.back(), c, static_cast<int>(k)}));
     }
     return ways;
   }
@@ -234,29 +141,23 @@ private:
     const vec3 way = normalized(foot - p);
     return std::any_of(ways_in.begin(), ways_in.end(),
                        [&](vec3 in) { return dot(in, way) > least_leaving; }) &&
-           dot(into_face(f, at_foot), -way) > least_arriving;
+           dot(chords_.into_face(f, at_foot), -way) > least_arriving;
   }
-  /// From a passage of a face, square to it into the face; of unit length.
-  vec3 into_face(local_id f, const passed_chord& along) const {
-    const surface_frame frame = model_.face_frame(f, model_.curve_uv(f, along.coedge, along.line->middle));
-    const vec3 run = along.line->ends[1] - along.line->ends[0];
-    const vec3 inward = normalized(cross(cross(frame.du, frame.dv), run));
-    return topology().faces[f].coedges[along.coedge].reversed ? -inward : inward;
-  }
-
   void add(double length, const std::vector<vec3>& places) {
     const double size = size_at(places.front());
     const double fitted = std::max({length, options_.least_size, options_.touching_share * size});
     if (!(fitted < size))
       return;
-    details_.push_back(
-        {fitted, places, elements_of_growth(fitted, size, options_.growth, options_.dimension)});
+    kept_detail& added = details_.emplace_back();
+    added.elements = elements_of_growth(fitted, size, options_.growth, options_.dimension);
+    for (const vec3 p : places)
+      added.places.push_back({p, fitted});
   }
 
   const G& model_;
   const any_sizing& size_;
   const kept_detail_options& options_;
-  std::vector<std::vector<chord>> chords_of_;    ///< by curve; none of degenerate ones
+  curve_chords<G> chords_;
   std::vector<std::vector<local_id>> joined_to_; ///< by vertex: those at the other ends of short edges
   std::vector<kept_detail> details_;
 };
@@ -294,11 +195,11 @@ inline void check(const kept_detail_options& options) {
 } // namespace sizing
 
 /// The details of a model that sizes should fit: edges far shorter than the size, and vertices of a face far
-/// nearer, across the face, to another curve of it. Triangles there would have an angle of about the ratio of
-/// both. Those that need the fewest elements come first, as far as the elements allowed are enough.
-/// Complexity: about n log n in the curves of each face and their lengths in sizes. Throws `sizing_error` for
-/// options out of range, and for sizes that are not positive and finite.
-/// \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
+/// nearer, across the face, to another curve of it, and faces far narrower between two curves. Triangles
+/// there would have an angle of about the ratio of both. Those that need the fewest elements come first, as
+/// far as the elements allowed are enough. Complexity: about n log n in the curves of each face and their
+/// lengths in sizes. Throws `sizing_error` for options out of range, and for sizes that are not positive and
+/// finite. \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
 /// \param size the field, asked at the middle of each curve and at vertices
 /// \param options what is a detail, and how many elements may be spent
 template <geometry_model G>
@@ -318,8 +219,7 @@ detail_fit details_to_fit(const G& model, const any_sizing& size, const kept_det
     }
     ++fit.fitted;
     fit.elements = fit.elements_of_all;
-    for (const vec3 p : detail->places)
-      fit.places.push_back({p, detail->size});
+    fit.places.insert(fit.places.end(), detail->places.begin(), detail->places.end());
   }
   return fit;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,11 +30,14 @@ simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, const side
 
 /// Which chords (inner edges of a region that join two points of lines) must not be: those that coincide with
 /// an edge of a line, and those that another region beside the same CAD curve might have too. Of the regions
-/// that might, the first may. A pure function of the skeleton, so that regions need not wait for each other.
+/// that might, the first may; a flat one before those that are curved, which must not have chords in the
+/// plane of a face beside them: a triangle at such a chord may lie in that face as a whole, as the one at the
+/// tip of half a cone. A pure function of the skeleton, so that regions need not wait for each other.
 class chord_rule {
 public:
-  chord_rule(const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine, const numbered_lines& lines,
-             const surface_mesh& surface);
+  /// \param model has the planes of flat faces; it is not needed later
+  chord_rule(const any_geometry& model, const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine,
+             const numbered_lines& lines, const surface_mesh& surface);
 
   /// Whether a region must not have the chord between two points.
   bool forbids(local_id region, local_id a, local_id b) const;
@@ -42,15 +47,23 @@ public:
   content_key key(std::span<const local_id> regions, std::span<const local_id> points) const;
 
 private:
+  /// Whether a region may have chords that another one must not have then.
+  bool comes_before(local_id region, local_id other) const;
+
+  /// Whether both regions are flat, and in one plane.
+  bool are_in_one_plane(local_id a, local_id b) const;
+
   /// Of each point the regions before this one that are at another of the points too, numbered in the order
-  /// of their appearance, behind their count.
+  /// of their appearance, behind their count; for a curved region those in one plane have one number.
   std::vector<std::int64_t> earlier_regions(local_id region, std::span<const local_id> points) const;
 
   /// Points of the CAD curves that a coarse triangle touches.
   void add_region(local_id region, const simplex<2>& triangle, const numbered_lines& lines);
 
-  std::vector<simplex<1>> edges_;                 ///< of all lines, sorted
-  std::vector<std::vector<local_id>> regions_at_; ///< per point; empty for points on no CAD curve
+  std::vector<simplex<1>> edges_;                    ///< of all lines, sorted
+  std::vector<std::vector<local_id>> regions_at_;    ///< per point; empty for points on no CAD curve
+  std::vector<std::optional<surface_frame>> planes_; ///< per region; of curved ones none
+  double extent_;                                    ///< of the model
 };
 
 /// The regions of each subsurface, growing.

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/geometry/coplanar.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 
 #include <algorithm>
@@ -61,9 +62,14 @@ DOVETAIL_INLINE simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& sur
   return skeleton;
 }
 
-DOVETAIL_INLINE chord_rule::chord_rule(const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine,
-                                       const numbered_lines& lines, const surface_mesh& surface)
-    : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()) {
+DOVETAIL_INLINE chord_rule::chord_rule(const any_geometry& model, const coarse_skeleton& skeleton,
+                                       const simplicial_skeleton<2>& fine, const numbered_lines& lines,
+                                       const surface_mesh& surface)
+    : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()),
+      extent_(model.bounds().diagonal()) {
+  planes_.reserve(skeleton.regions.size());
+  for (const skeleton_region& region : skeleton.regions)
+    planes_.push_back(model.plane_of_face(region.cad_face));
   for (simplex<1>& edge : edges_)
     edge = sorted_vertices(edge);
   sort_unique(edges_);
@@ -75,12 +81,25 @@ DOVETAIL_INLINE chord_rule::chord_rule(const coarse_skeleton& skeleton, const si
   }
 }
 
+DOVETAIL_INLINE bool chord_rule::comes_before(local_id region, local_id other) const {
+  const bool is_flat = planes_[region].has_value();
+  return is_flat == planes_[other].has_value() ? region < other : is_flat;
+}
+
+DOVETAIL_INLINE bool chord_rule::are_in_one_plane(local_id a, local_id b) const {
+  return planes_[a] && planes_[b] && are_coplanar(*planes_[a], *planes_[b], extent_, 1e-6);
+}
+
 DOVETAIL_INLINE bool chord_rule::forbids(local_id region, local_id a, local_id b) const {
   const auto& at_a = regions_at_[a];
   const auto& at_b = regions_at_[b];
-  const bool an_earlier_region = std::any_of(at_a.begin(), at_a.end(), [&](local_id r) {
-    return r < region && std::binary_search(at_b.begin(), at_b.end(), r);
-  });
+  const auto is_at_b = [&](local_id r) {
+    return std::binary_search(at_b.begin(), at_b.end(), r) ||
+           (!planes_[region] && std::any_of(at_b.begin(), at_b.end(),
+                                            [&](local_id other) { return are_in_one_plane(r, other); }));
+  };
+  const bool an_earlier_region = std::any_of(
+      at_a.begin(), at_a.end(), [&](local_id r) { return comes_before(r, region) && is_at_b(r); });
   return an_earlier_region ||
          std::binary_search(edges_.begin(), edges_.end(), sorted_vertices(simplex<1>{a, b}));
 }
@@ -102,18 +121,25 @@ DOVETAIL_INLINE content_key chord_rule::key(std::span<const local_id> regions,
 
 DOVETAIL_INLINE std::vector<std::int64_t>
 chord_rule::earlier_regions(local_id region, std::span<const local_id> points) const {
+  std::map<local_id, local_id> first_in_plane; // of every region met, which is it itself if it is curved
   std::map<local_id, std::size_t> met;
   for (const local_id point : points)
-    for (const local_id r : regions_at_[point])
-      ++met[r];
+    for (const local_id r : regions_at_[point]) {
+      const auto [found, is_new] = first_in_plane.try_emplace(r, r);
+      if (is_new && !planes_[region])
+        for (const auto& [other, first] : first_in_plane)
+          if (other != r && are_in_one_plane(other, r))
+            found->second = first;
+      ++met[found->second];
+    }
   std::map<local_id, std::int64_t> number;
   std::vector<std::int64_t> listed;
   for (const local_id point : points) {
     const std::size_t at = listed.size();
     listed.push_back(0);
     for (const local_id r : regions_at_[point])
-      if (r < region && met[r] > 1) {
-        listed.push_back(number.try_emplace(r, static_cast<std::int64_t>(number.size())).first->second);
+      if (const local_id first = first_in_plane[r]; comes_before(r, region) && met[first] > 1) {
+        listed.push_back(number.try_emplace(first, static_cast<std::int64_t>(number.size())).first->second);
         ++listed[at];
       }
   }

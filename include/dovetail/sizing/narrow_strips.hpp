@@ -1,0 +1,120 @@
+/// @file
+/// Where a face is far narrower than the size between two of its curves, such as the rim of a thin plate.
+#pragma once
+
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/sizing/checked_size.hpp"
+#include "dovetail/sizing/curve_chords.hpp"
+#include "dovetail/sizing/erased.hpp"
+#include "dovetail/sizing/kept_detail.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace dovetail::sizing {
+
+/// Finds, along every curve of a face, how far it is across the face to a curve without a common vertex.
+/// Curves that meet are left out: the width between them vanishes, and no size fits it.
+template <geometry_model G>
+class narrow_strips {
+public:
+  /// All must outlive the object.
+  narrow_strips(const G& model, const any_sizing& size, const kept_detail_options& options,
+                const curve_chords<G>& chords)
+      : model_(model), size_(size), options_(options), chords_(chords) {}
+
+  /// Adds a detail for each side of a strip. About n log n in the chords of each face.
+  void add_to(std::vector<kept_detail>& details) const {
+    for (std::size_t f = 0; f < model_.topology().faces.size(); ++f) {
+      const auto face = static_cast<local_id>(f);
+      const face_chords chords = chords_.passed_by(face);
+      std::vector<kept_detail> sides(model_.topology().faces[f].coedges.size());
+      for (const passed_chord& along : chords.passed)
+        if (const auto width = width_at(face, along, chords))
+          add_places(along, *width, sides[along.coedge]);
+      for (kept_detail& side : sides)
+        if (!side.places.empty())
+          details.push_back(std::move(side));
+    }
+  }
+
+private:
+  /// Edges across a strip have this many times its width; triangles of one row are well shaped.
+  static constexpr double widths_per_size = 2;
+
+  const geometry_topology& topology() const { return model_.topology(); }
+
+  bool meet(local_id a, local_id b) const {
+    const auto& first = topology().curves[a].vertices;
+    const auto& second = topology().curves[b].vertices;
+    return a == b || first[0] == second[0] || first[0] == second[1] || first[1] == second[0] ||
+           first[1] == second[1];
+  }
+
+  /// The width of the face at the middle of a chord, where it is a small share of the size.
+  std::optional<double> width_at(local_id face, const passed_chord& along, const face_chords& chords) const {
+    const vec3 p = model_.curve_point(along.curve, along.line->middle);
+    const double size = checked_size(size_, p);
+    const passed_chord* nearest = nullptr;
+    double width = options_.share_of_size * size;
+    chords.tree.for_each_near(
+        p, [&](const box3& box, std::size_t) { return distance_squared(box, p) < width * width; },
+        [&](local_id k) {
+          const passed_chord& other = chords.passed[k];
+          const vec3 foot = foot_on(*other.line, p);
+          if (const double away = distance(foot, p);
+              away < width && !meet(along.curve, other.curve) && is_across(face, along, other, p, foot)) {
+            width = away;
+            nearest = &other;
+          }
+        });
+    if (nearest == nullptr)
+      return std::nullopt;
+    width = distance(chords_.foot_on(*nearest, p), p);
+    const double touching =
+        std::max(options_.touching_share * size,
+                 topology().curves[along.curve].tolerance + topology().curves[nearest->curve].tolerance);
+    if (!(width > touching && width < options_.share_of_size * size))
+      return std::nullopt;
+    return width;
+  }
+
+  /// Whether the way from a chord to a foot on another leads through the face.
+  bool is_across(local_id face, const passed_chord& from, const passed_chord& to, vec3 p, vec3 foot) const {
+    constexpr double least_cosine = 0.5;
+    const vec3 way = normalized(foot - p);
+    return dot(chords_.into_face(face, from), way) > least_cosine &&
+           dot(chords_.into_face(face, to), -way) > least_cosine;
+  }
+
+  /// Places along a chord so near to each other that sizes are small between them, too. A strip has two
+  /// sides, each of which counts half of its elements.
+  void add_places(const passed_chord& along, double width, kept_detail& side) const {
+    const curve_chord& line = *along.line;
+    const double size = checked_size(size_, line.ends[0]);
+    const double fitted =
+        std::max({widths_per_size * width, options_.least_size, options_.touching_share * size});
+    if (!(fitted < size))
+      return;
+    side.elements +=
+        0.5 * line.length() * elements_of_growth_along(fitted, size, options_.growth, options_.dimension);
+    if (side.elements > options_.most_elements)
+      return; // it is left as it is
+    const double count = std::ceil(line.length() / fitted);
+    for (double k = 0; k < count; ++k) {
+      const double share = (k + 0.5) / count;
+      side.places.push_back({(1 - share) * line.ends[0] + share * line.ends[1], fitted});
+    }
+  }
+
+  const G& model_;
+  const any_sizing& size_;
+  const kept_detail_options& options_;
+  const curve_chords<G>& chords_;
+};
+
+} // namespace dovetail::sizing
