@@ -1,13 +1,14 @@
-# Installs the headers, one export set per component (so that a missing third party never breaks another component),
-# the configuration and version files, the Find modules, and of the driver and the compiled libraries what was built.
+# Installs the headers, one export set of all modules and one per component (so that a missing third party never breaks
+# another component), the configuration and version files, the Find modules, and of the driver and the compiled libraries
+# what was built.
 include(CMakePackageConfigHelpers)
 set(config_directory "${CMAKE_INSTALL_LIBDIR}/cmake/dovetail")
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/dovetail" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.ipp")
 
-install(TARGETS dovetail EXPORT dovetail_core)
-install(EXPORT dovetail_core NAMESPACE dovetail:: FILE dovetail-core-targets.cmake DESTINATION "${config_directory}")
+install(TARGETS dovetail ${dovetail_module_targets} EXPORT dovetail_modules)
+install(EXPORT dovetail_modules NAMESPACE dovetail:: FILE dovetail-modules-targets.cmake DESTINATION "${config_directory}")
 foreach(component IN LISTS dovetail_components)
   install(TARGETS dovetail_${component} EXPORT dovetail_${component})
   install(EXPORT dovetail_${component} NAMESPACE dovetail::
@@ -20,6 +21,7 @@ foreach(name IN LISTS dovetail_compiled_targets)
     FILE dovetail-${name}-targets.cmake DESTINATION "${config_directory}")
 endforeach()
 
+list(JOIN dovetail_modules " " dovetail_modules_in_words)
 configure_package_config_file(
   "${PROJECT_SOURCE_DIR}/cmake/dovetailConfig.cmake.in" "${PROJECT_BINARY_DIR}/dovetailConfig.cmake"
   INSTALL_DESTINATION "${config_directory}" PATH_VARS CMAKE_INSTALL_LIBDIR)

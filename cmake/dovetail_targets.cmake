@@ -1,25 +1,54 @@
-# The library's targets: dovetail::dovetail, and one per third-party adapter, dovetail::<component>, made only when
-# the third party is found. Each adapter's dependencies are written once more, for users, in dovetailConfig.cmake.in.
+# The library's targets: dovetail::dovetail, which is all modules; one per module, dovetail::<module>, with those that it may
+# include; and one per third-party adapter, dovetail::<component>, made only when the third party is found. Each adapter's
+# dependencies are written once more, for users, in dovetailConfig.cmake.in.
 
 find_package(Threads REQUIRED)
 
-add_library(dovetail INTERFACE)
-add_library(dovetail::dovetail ALIAS dovetail)
-target_compile_features(dovetail INTERFACE cxx_std_20)
+# What the modules are, and what each may include, is said in one place.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/modules.txt")
+set(dovetail_modules "")
+file(STRINGS "${PROJECT_SOURCE_DIR}/cmake/modules.txt" rows REGEX "^(has|includes) ")
+foreach(row IN LISTS rows)
+  if(NOT row MATCHES "^(has|includes) *\\| *([a-z_]+) *\\| *([a-z_/ 0-9]+)$")
+    message(FATAL_ERROR "cmake/modules.txt: '${row}'")
+  endif()
+  set(kind ${CMAKE_MATCH_1})
+  set(module ${CMAKE_MATCH_2})
+  separate_arguments(words UNIX_COMMAND "${CMAKE_MATCH_3}")
+  if(module STREQUAL "adapters") # one target for each library
+    continue()
+  elseif(kind STREQUAL "includes")
+    list(TRANSFORM words PREPEND dovetail_)
+    target_link_libraries(dovetail_${module} INTERFACE ${words})
+  elseif(NOT module IN_LIST dovetail_modules)
+    add_library(dovetail_${module} INTERFACE)
+    add_library(dovetail::${module} ALIAS dovetail_${module})
+    set_target_properties(dovetail_${module} PROPERTIES EXPORT_NAME ${module})
+    list(APPEND dovetail_modules ${module})
+  endif()
+endforeach()
+
+# All modules include the core, and have from it what a compiler has to know.
+target_compile_features(dovetail_core INTERFACE cxx_std_20)
 # Our warnings are our own affair: for a project that has this one as a subfolder its headers are a system's, as they are
 # for one that finds it installed.
 set(dovetail_headers_are SYSTEM)
 if(PROJECT_IS_TOP_LEVEL)
   set(dovetail_headers_are "")
 endif()
-target_include_directories(dovetail ${dovetail_headers_are} INTERFACE
+target_include_directories(dovetail_core ${dovetail_headers_are} INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
   "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 # The exact predicates are exact only when the compiler does not fuse a product and a sum on its own; nor would the mesh
 # be the same on machines with and without fused operations. (By default g++ fuses where -march offers it.)
-target_compile_options(dovetail INTERFACE
+target_compile_options(dovetail_core INTERFACE
   "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>")
-target_link_libraries(dovetail INTERFACE Threads::Threads)
+target_link_libraries(dovetail_core INTERFACE Threads::Threads)
+
+add_library(dovetail INTERFACE)
+add_library(dovetail::dovetail ALIAS dovetail)
+list(TRANSFORM dovetail_modules PREPEND dovetail_ OUTPUT_VARIABLE dovetail_module_targets)
+target_link_libraries(dovetail INTERFACE ${dovetail_module_targets})
 
 # Packages of dovetail have what they say, whatever else is on the machine that makes them.
 set(DOVETAIL_ADAPTERS "found" CACHE STRING

@@ -40,8 +40,10 @@ double cut_weight(const dovetail::csr_graph& graph, const std::vector<dovetail::
 int main() {
   const auto graph = chessboard(64);
 
+  // part partition
   const auto by_metis = dovetail::partition::metis{.imbalance = 1.03}(graph, 16);
   const auto by_greedy = dovetail::partition::greedy{.imbalance = 1.03}(graph, 16);
+  // end
 
   // Squares of 16 x 16 nodes cut 2 x 3 x 64 edges.
   std::printf("edges cut: %g by METIS, %g by the native partitioner, %d by squares\n",

@@ -25,8 +25,10 @@ void write_two_balls() {
     return std::min(implicit::sphere{{-1.5, 0, 0}, 1}(p), implicit::sphere{{1.5, 0, 0}, 1.2}(p));
   };
   const implicit_model model(two_balls, {{-3, -2, -2}, {3, 2, 2}});
+  // part write
   const auto made = generate<3>(model, uniform_size(0.3), parameters<>{});
   io::msh_writer{.stem = "two_balls"}(made.mesh, ".");
+  // end
 }
 
 } // namespace

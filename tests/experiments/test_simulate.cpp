@@ -45,9 +45,11 @@ TEST_CASE("What all do alike costs the same for any number of workers, and batch
 }
 
 TEST_CASE("A manager who is slower than the workers decides") {
+  // part manager
   simulated_machine machine = without_delays(1000);
   machine.request_seconds = 0.01;
   const auto run = simulate(tasks(5000, 1e-6), machine);
+  // end
   CHECK(run.stages[0].managing == doctest::Approx(0.01 * 5000)); // one answer for each task
   CHECK(run.seconds == doctest::Approx(run.stages[0].managing).epsilon(0.01));
 }

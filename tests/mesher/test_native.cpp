@@ -64,9 +64,11 @@ TEST_CASE("boundary points that no triangle has stay where they are, wherever th
       for (local_id& v : triangle)
         ++v;
     for (const auto& boundary : {first, last}) {
-      const mesher_input<3> input{boundary, 4};
+      // part call
+      const mesher_input<3> input{boundary, 4}; // triangles, and the tag of the elements
       const auto made = mesher::native{}(input, [](vec3) { return 0.3; });
       CHECK_NOTHROW(check_mesher_result(input, made.mesh));
+      // end
       CHECK(made.mesh.points.size() > boundary.points.size());
       CHECK(made.summary.as<mesher_counts>().points == made.mesh.points.size());
       CHECK(made.mesh.elements.size() ==

@@ -43,9 +43,14 @@ check_small() { # name, options
 install_moved "$work/build" "$work/elsewhere"
 check_consumer "$work/elsewhere" "$work/consumer"
 check_small installed -DCMAKE_PREFIX_PATH="$work/elsewhere"
+# The core alone has all that its headers need; every module is a component.
+check_small core -DCMAKE_PREFIX_PATH="$work/elsewhere" -DCOMPONENT=core
+modules=$(sed -nE 's/^has *\| *([a-z]+) .*/\1/p' "$source_directory/cmake/modules.txt" | grep -v adapters | uniq | paste -sd ';')
+check_small modules -DCMAKE_PREFIX_PATH="$work/elsewhere" -DCOMPONENT="$modules"
 
 # As a subfolder of an empty project it brings the library alone: no program, no tests, nothing to install.
 check_small subfolder -DSUBFOLDER="$source_directory"
+check_small subfolder_modules -DSUBFOLDER="$source_directory" -DCOMPONENT="$modules"
 "$cmake" --build "$work/small_subfolder" --target help >"$work/targets"
 if grep -E "(^|[ /])(dovetail_compiled|dovetail|test_[a-z_]+|example_[a-z0-9_]+|install)(:|$| )" "$work/targets"; then
   echo "the targets above are not wanted in a project that has the library as a subfolder"
