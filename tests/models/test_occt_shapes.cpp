@@ -21,6 +21,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
+#include <gp_Ax2.hxx>
 #include <gp_Pln.hxx>
 #include <gp_Trsf.hxx>
 #include <gp_Vec.hxx>
@@ -116,6 +117,35 @@ TEST_CASE("solids that touch get a common face") {
   const std::vector<double> volumes = testing::enclosed_volumes(model.topology(), occt_triangulation(model));
   CHECK(volumes[0] == doctest::Approx(8));
   CHECK(volumes[1] == doctest::Approx(1));
+}
+
+TEST_CASE("solids that touch along a line have it in common, inside a face of one of them") {
+  const TopoDS_Shape plate = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  const TopoDS_Shape roller =
+      BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0.3, 0.5, 1.2), gp_Dir(1, 0, 0)), 0.2, 0.4).Shape();
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, plate);
+  builder.Add(both, roller);
+  const occt_model model = occt_shape_from(both).model;
+  CHECK(testing::joined(testing::faults_of(model)) == "");
+  const geometry_topology& topology = model.topology();
+  REQUIRE(topology.solids.size() == 2);
+  std::vector<int> passages(topology.curves.size(), 0);
+  local_id shared = no_id;
+  for (const auto& face : topology.faces)
+    for (const auto& coedge : face.coedges)
+      if (++passages[coedge.curve] == 4)
+        shared = coedge.curve;
+  CHECK(std::count(passages.begin(), passages.end(), 4) ==
+        1); // twice by the plate's face, by two of the roller
+  REQUIRE(shared != no_id);
+  const auto& range = topology.curves[shared].t;
+  for (const double t : {range[0], 0.5 * (range[0] + range[1]), range[1]})
+    CHECK(distance(model.curve_point(shared, t), {model.curve_point(shared, t).x, 0.5, 1}) < 1e-9);
+  CHECK(distance(model.curve_point(shared, range[0]), model.curve_point(shared, range[1])) ==
+        doctest::Approx(0.4));
 }
 
 TEST_CASE("solids that only come near each other stay as they are") {

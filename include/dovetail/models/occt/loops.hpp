@@ -12,9 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail::occt {
@@ -93,12 +95,12 @@ struct loop_manner {
 /// Orders and closes the loops of one face.
 class loop_builder {
 public:
-  /// `size` is the diagonal of the model. `with_inner_edges`: edges inside the face are loops too, there and
-  /// back; else they are left out, as they bound nothing.
+  /// `size` is the diagonal of the model. Edges inside the face of which `is_loop` is true are loops too,
+  /// there and back; others are left out, as they bound nothing.
   loop_builder(const TopoDS_Face& forward_face, const face_surface& surface, double size,
-               bool with_inner_edges = false)
+               std::function<bool(const TopoDS_Edge&)> is_loop)
       : face_(forward_face), surface_(surface), size_(size), worth_projecting_(1e-9 * size),
-        with_inner_edges_(with_inner_edges) {
+        is_loop_(std::move(is_loop)) {
     for (std::size_t k = 0; k < 2; ++k)
       width_[k] = std::max(surface.box()[k][1] - surface.box()[k][0], 1e-300);
   }
@@ -156,7 +158,7 @@ private:
     for (TopoDS_Iterator edges(wire); edges.More(); edges.Next()) {
       const TopoDS_Edge edge = TopoDS::Edge(edges.Value());
       if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED) {
-        if (with_inner_edges_ && edge.Orientation() == TopAbs_INTERNAL)
+        if (edge.Orientation() == TopAbs_INTERNAL && is_loop_(edge))
           add_inner_edge(edge);
         continue;
       }
@@ -331,7 +333,7 @@ private:
   const face_surface& surface_;
   double size_;
   double worth_projecting_;
-  bool with_inner_edges_;
+  std::function<bool(const TopoDS_Edge&)> is_loop_; ///< of edges inside the face
   loop_manner how_;
   std::array<double, 2> width_{};
   face_loops result_;

@@ -8,6 +8,7 @@
 #include "dovetail/models/occt/small_edges.hpp"
 
 #include <Geom_Curve.hxx>
+#include <TopTools_MapOfShape.hxx>
 
 #include <algorithm>
 #include <array>
@@ -39,6 +40,7 @@ public:
     for (TopExp_Explorer faces(result_.shape, TopAbs_FACE, TopAbs_SOLID); faces.More(); faces.Next())
       if (!face_ids_.Contains(faces.Current()))
         add_face(TopoDS::Face(faces.Current()), no_id);
+    find_rims();
     for (std::size_t f = 0; f < result_.faces.size(); ++f)
       add_loops(static_cast<local_id>(f));
     if (result_.faults.empty())
@@ -95,11 +97,21 @@ private:
       item.solids[1] = solid;
   }
 
+  /// An edge inside one face that bounds another one is where two solids touch along a line: both have it.
+  void find_rims() {
+    for (const TopoDS_Face& face : result_.faces)
+      for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next())
+        if (edges.Current().Orientation() == TopAbs_FORWARD ||
+            edges.Current().Orientation() == TopAbs_REVERSED)
+          rims_.Add(edges.Current());
+  }
+
   void add_loops(local_id f) {
     const auto index = static_cast<std::size_t>(f);
     face_surface& surface = result_.surfaces.emplace_back(result_.faces[index]);
     const bool encloses = result_.topology.faces[index].solids[0] != no_id;
-    const face_loops made = loop_builder(result_.faces[index], surface, size_, !encloses).build();
+    const auto is_loop = [&](const TopoDS_Edge& inner) { return !encloses || rims_.Contains(inner); };
+    const face_loops made = loop_builder(result_.faces[index], surface, size_, is_loop).build();
     for (const auto& fault : made.faults)
       result_.faults.push_back(face_text(f) + " " + fault);
     if (made.faults.empty())
@@ -227,6 +239,7 @@ private:
   double size_; ///< diagonal of the shape
   brep result_;
   TopTools_IndexedMapOfShape face_ids_, edge_ids_, vertex_map_;
+  TopTools_MapOfShape rims_; ///< edges that bound a face
   std::map<int, std::size_t> vertex_ids_;
   std::vector<double> measured_; ///< per curve: the largest distance to its faces
 };
