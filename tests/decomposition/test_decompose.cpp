@@ -210,9 +210,39 @@ TEST_CASE("scattered partitions become connected parts; defects that are left ar
     // Parts that start as wild as these cannot always be mended, but there is little left.
     CHECK(d.defective_points.size() <= 4);
     CHECK(d.non_manifold_edges <= 2);
+    if (mesh.tags.empty())
+      CHECK(d.summary.warnings.empty() == expected.empty());
     CHECK(std::accumulate(d.part_weights.begin(), d.part_weights.end(), 0.0) ==
           doctest::Approx(static_cast<double>(mesh.elements.size())));
   }
+}
+
+TEST_CASE("where a model is not manifold itself no decomposition is blamed") {
+  simplicial_mesh<2> mesh; // four pairs of triangles around one edge, which the surface passes through twice
+  mesh.points = {{0, 0, 0}, {0, 0, 1}};
+  for (const auto& [x, y] : {std::array{1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
+    const auto n = static_cast<local_id>(mesh.points.size());
+    mesh.points.push_back({1.0 * x, 1.0 * y, 0});
+    mesh.points.push_back({1.0 * x, 1.0 * y, 1});
+    mesh.elements.push_back({0, n, n + 1});
+    mesh.elements.push_back({0, n + 1, 1});
+  }
+  const auto sides = build_sides(mesh);
+  std::vector<local_id> pair_of_triangle;
+  csr_graph graph;
+  graph.offsets = {0};
+  for (local_id pair = 0; pair < 4; ++pair) { // each beside two others, as where two surfaces touch
+    pair_of_triangle.insert(pair_of_triangle.end(), 2, pair);
+    graph.node_weights.push_back(2);
+    for (const local_id other : {(pair + 1) % 4, (pair + 3) % 4}) {
+      graph.neighbours.push_back(other);
+      graph.edge_weights.push_back(1);
+    }
+    graph.offsets.push_back(static_cast<std::int64_t>(graph.neighbours.size()));
+  }
+  const auto whole = decompose<2>(mesh, sides, pair_of_triangle, graph, {}, partition::greedy{}, 1);
+  CHECK(whole.defective_points == std::vector<local_id>{0, 1});
+  CHECK(whole.summary.warnings.empty());
 }
 
 TEST_CASE("a simplified mesh is decomposed along sides that may be interfaces, in balance") {

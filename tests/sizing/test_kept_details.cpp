@@ -57,7 +57,7 @@ TEST_CASE("sizes grow from a vertex that is near to another curve, across a face
   CHECK(fitted({0.5, 0.01, 0}) == doctest::Approx(0.01));
   CHECK(fitted({0.5, 0, 0}) == doctest::Approx(0.01));
   CHECK(fitted({0.55, 0, 0}) == doctest::Approx(0.01 + 0.4 * 0.05));
-  CHECK(finer_at_details(notched(0.03), given)({0.5, 0.03, 0}) == 0.1);
+  CHECK(finer_at_details(notched(0.06), given)({0.5, 0.06, 0}) == 0.1);
   CHECK(finer_at_details(notched(0.00005), given)({0.5, 0, 0}) == 0.1); // it is on the lower side
   // The mouth of a slit has nothing of the square in it, whichever way it looks and with lips of any height.
   for (int turn = 0; turn < 12; ++turn)
@@ -103,8 +103,9 @@ TEST_CASE("sizes are small all along a face that is far narrower than they are")
   CHECK(even({0.5, 0.4, 0}) == 0.1);
   const any_sizing tapered = finer_at_details(strip(0.01, 0.04), given, {.dimension = 2});
   CHECK(tapered({0.25, 0, 0}) == doctest::Approx(0.035).epsilon(0.15));
-  CHECK(tapered({0.9, 0, 0}) > 0.09); // not narrow there
-  CHECK(finer_at_details(strip(0.03, 0.03), given)({0.5, 0, 0}) == 0.1);
+  CHECK(tapered({0.75, 0, 0}) == doctest::Approx(0.065).epsilon(0.15));
+  CHECK(finer_at_details(strip(0.03, 0.03), given)({0.5, 0, 0}) == doctest::Approx(0.06).epsilon(0.2));
+  CHECK(finer_at_details(strip(0.06, 0.06), given)({0.5, 0, 0}) == 0.1); // twice its width is more
 
   plane_drawing wedge; // narrows down to a corner
   wedge.polygons = {{{{0, 0}, {1, 0}, {1, 0.05}}, "wedge"}};

@@ -129,6 +129,25 @@ graph_to_partition graph_within_materials(const simplicial_mesh<D>& mesh, const 
   return whole;
 }
 
+/// Of points where boundaries of parts are not manifold those where the materials' own boundaries have fewer
+/// defects: elsewhere the model is what it is, as where two solids touch, and no decomposition does better.
+template <int D>
+std::vector<local_id> avoidable_defects(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                                        const decomposition& made) {
+  std::vector<local_id> avoidable;
+  if (made.defective_points.empty())
+    return avoidable;
+  boundary_defects<D> defects(mesh, sides);
+  const auto part_of = [&](local_id e) { return made.part_of_element[e]; };
+  const auto material_of = [&](local_id e) { return made.material_of_part[part_of(e)]; };
+  for (const local_id p : made.defective_points) {
+    const defect_count of_parts = defects.count_at(p, part_of), of_model = defects.count_at(p, material_of);
+    if (of_parts.edges > of_model.edges || of_parts.points > of_model.points)
+      avoidable.push_back(p);
+  }
+  return avoidable;
+}
+
 template <int D>
 decomposition decomposition_into(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                                  std::span<const local_id> super_of_element, graph_to_partition whole,
@@ -175,11 +194,10 @@ decomposition decomposition_into(const simplicial_mesh<D>& mesh, const side_tabl
                                .refined_super_elements = refined,
                                .non_manifold_edges = result.non_manifold_edges,
                                .non_manifold_points = result.defective_points.size()});
-  if (!result.defective_points.empty())
-    summary.warnings.push_back("subdomain boundaries are not manifold at " +
-                               std::to_string(result.defective_points.size()) +
-                               " points, the first is point " +
-                               std::to_string(result.defective_points.front()) + " of the coarse mesh");
+  if (const auto points = avoidable_defects(mesh, sides, result); !points.empty())
+    summary.warnings.push_back("subdomain boundaries are not manifold at " + std::to_string(points.size()) +
+                               " points, the first is point " + std::to_string(points.front()) +
+                               " of the coarse mesh");
   result.graph = std::move(whole.graph);
   return result;
 }

@@ -21,7 +21,7 @@ namespace dovetail {
 
 namespace sizing {
 
-/// The details of a model that are small for a size.
+/// The details of a model that are small for a size, but for strips.
 template <geometry_model G>
 class kept_details {
 public:
@@ -34,7 +34,6 @@ public:
         find_if_short(static_cast<local_id>(c));
     for (std::size_t f = 0; f < model.topology().faces.size(); ++f)
       find_narrow_places(static_cast<local_id>(f));
-    narrow_strips<G>(model, size, options, chords_).add_to(details_);
   }
 
   /// All of them.
@@ -194,20 +193,52 @@ inline void check(const kept_detail_options& options) {
 
 } // namespace sizing
 
-/// The details of a model that sizes should fit: edges far shorter than the size, and vertices of a face far
+/// A field that at some places is as small as they say, grows from there, and is the one given elsewhere.
+/// Complexity: n log n in the places; an evaluation takes about log n.
+/// Throws `sizing_error` for a size or growth that is not positive and finite.
+/// \param size the field
+/// \param places such as those of `details_to_fit`; without any the result is the field given
+/// \param growth of the size per length, which has no unit
+inline any_sizing finer_at(const any_sizing& size, const std::vector<sized_point>& places, double growth) {
+  if (places.empty())
+    return size;
+  return keep_bounds(
+      minimum_of(erased_sizing(size), point_sizes(places, growth, std::numeric_limits<double>::max())));
+}
+
+namespace sizing {
+
+/// All details. A strip is narrow for the sizes that fit the others: its ends are short edges, beside which
+/// they grow.
+template <geometry_model G>
+std::vector<kept_detail> details_and_strips(const G& model, const any_sizing& size,
+                                            const kept_detail_options& options) {
+  std::vector<kept_detail> details = kept_details<G>(model, size, options).list();
+  std::vector<sized_point> places;
+  for (const kept_detail& detail : details)
+    append(places, detail.places);
+  const any_sizing fitted = finer_at(size, places, options.growth);
+  narrow_strips<G>(model, fitted, options).add_to(details);
+  return details;
+}
+
+} // namespace sizing
+
+/// The details of a model that sizes should fit: edges far shorter than the size, vertices of a face far
 /// nearer, across the face, to another curve of it, and faces far narrower between two curves. Triangles
 /// there would have an angle of about the ratio of both. Those that need the fewest elements come first, as
-/// far as the elements allowed are enough. Complexity: about n log n in the curves of each face and their
-/// lengths in sizes. Throws `sizing_error` for options out of range, and for sizes that are not positive and
-/// finite. \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
-/// \param size the field, asked at the middle of each curve and at vertices
+/// far as the elements allowed are enough.
+/// Complexity: about n log n in the curves of each face and their lengths in sizes.
+/// Throws `sizing_error` for options out of range, and for sizes that are not positive and finite.
+/// \param model all of whose details are to be kept; with a `virtual_model` those that it leaves
+/// \param size the field, asked along curves and at vertices
 /// \param options what is a detail, and how many elements may be spent
 template <geometry_model G>
 detail_fit details_to_fit(const G& model, const any_sizing& size, const kept_detail_options& options = {}) {
   sizing::check(options);
-  const sizing::kept_details<G> found(model, size, options);
+  const std::vector<sizing::kept_detail> found = sizing::details_and_strips(model, size, options);
   std::vector<const sizing::kept_detail*> details;
-  for (const sizing::kept_detail& detail : found.list())
+  for (const sizing::kept_detail& detail : found)
     details.push_back(&detail);
   stable_sort_all(details, [](const auto* a, const auto* b) { return a->elements < b->elements; });
   detail_fit fit;
@@ -222,19 +253,6 @@ detail_fit details_to_fit(const G& model, const any_sizing& size, const kept_det
     fit.places.insert(fit.places.end(), detail->places.begin(), detail->places.end());
   }
   return fit;
-}
-
-/// A field that at some places is as small as they say, grows from there, and is the one given elsewhere.
-/// Complexity: n log n in the places; an evaluation takes about log n.
-/// Throws `sizing_error` for a size or growth that is not positive and finite.
-/// \param size the field
-/// \param places such as those of `details_to_fit`; without any the result is the field given
-/// \param growth of the size per length, which has no unit
-inline any_sizing finer_at(const any_sizing& size, const std::vector<sized_point>& places, double growth) {
-  if (places.empty())
-    return size;
-  return keep_bounds(
-      minimum_of(erased_sizing(size), point_sizes(places, growth, std::numeric_limits<double>::max())));
 }
 
 /// Both: a field that fits those details of a model for which the elements allowed are enough, and is the one

@@ -23,9 +23,8 @@ template <geometry_model G>
 class narrow_strips {
 public:
   /// All must outlive the object.
-  narrow_strips(const G& model, const any_sizing& size, const kept_detail_options& options,
-                const curve_chords<G>& chords)
-      : model_(model), size_(size), options_(options), chords_(chords) {}
+  narrow_strips(const G& model, const any_sizing& size, const kept_detail_options& options)
+      : model_(model), size_(size), options_(options), chords_(model, size) {}
 
   /// Adds a detail for each side of a strip. About n log n in the chords of each face.
   void add_to(std::vector<kept_detail>& details) const {
@@ -46,6 +45,9 @@ private:
   /// Edges across a strip have this many times its width; triangles of one row are well shaped.
   static constexpr double widths_per_size = 2;
 
+  /// Of the size there; twice that of lengths which sizes fit as they are.
+  double narrow_share() const { return widths_per_size * options_.share_of_size; }
+
   const geometry_topology& topology() const { return model_.topology(); }
 
   bool meet(local_id a, local_id b) const {
@@ -60,7 +62,7 @@ private:
     const vec3 p = model_.curve_point(along.curve, along.line->middle);
     const double size = checked_size(size_, p);
     const passed_chord* nearest = nullptr;
-    double width = options_.share_of_size * size;
+    double width = narrow_share() * size;
     chords.tree.for_each_near(
         p, [&](const box3& box, std::size_t) { return distance_squared(box, p) < width * width; },
         [&](local_id k) {
@@ -78,7 +80,7 @@ private:
     const double touching =
         std::max(options_.touching_share * size,
                  topology().curves[along.curve].tolerance + topology().curves[nearest->curve].tolerance);
-    if (!(width > touching && width < options_.share_of_size * size))
+    if (!(width > touching && width < narrow_share() * size))
       return std::nullopt;
     return width;
   }
@@ -114,7 +116,7 @@ private:
   const G& model_;
   const any_sizing& size_;
   const kept_detail_options& options_;
-  const curve_chords<G>& chords_;
+  const curve_chords<G> chords_;
 };
 
 } // namespace dovetail::sizing

@@ -24,10 +24,11 @@
 
 namespace dovetail::occt {
 
-/// In the cube of the shape's unit.
-inline double volume_of(const TopoDS_Shape& shape) {
+/// In the cube of the shape's unit. (Without a bound on the error the kernel takes a fixed number of points
+/// per face, and is off by a thousandth and more on spline surfaces.)
+inline double volume_of(const TopoDS_Shape& shape, double relative_error) {
   GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
+  BRepGProp::VolumeProperties(shape, properties, relative_error);
   return properties.Mass();
 }
 

@@ -172,7 +172,7 @@ DOVETAIL_INLINE_OCCT std::vector<double> occt_face_areas(const occt_model& model
 DOVETAIL_INLINE_OCCT std::vector<double> occt_solid_volumes(const occt_model& model) {
   std::vector<double> volumes;
   for (const auto& solid : model.data().solids)
-    volumes.push_back(occt::volume_of(solid));
+    volumes.push_back(occt::volume_of(solid, 1e-9));
   return volumes;
 }
 

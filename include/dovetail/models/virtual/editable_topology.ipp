@@ -69,7 +69,8 @@ DOVETAIL_INLINE void editable_topology::count_passages() {
 
 DOVETAIL_INLINE std::vector<passage> editable_topology::passages_of(local_id c) const {
   std::vector<passage> found;
-  for (std::size_t f = 0; f < loops_.size(); ++f)
+  const auto count = static_cast<std::size_t>(passages_[c]);
+  for (std::size_t f = 0; f < loops_.size() && found.size() < count; ++f)
     for (std::size_t l = 0; l < loops_[f].size(); ++l)
       for (std::size_t k = 0; k < loops_[f][l].size(); ++k)
         if (loops_[f][l][k].curve == c)

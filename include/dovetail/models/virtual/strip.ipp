@@ -249,12 +249,13 @@ DOVETAIL_INLINE bool has_narrow_end_at(const editable_topology& topology, const 
       whole && std::any_of(whole->ends.begin(), whole->ends.end(), has) &&
       width_of(topology, allowed, *whole))
     return true;
-  for (const turn_back& turn : turns_of_face(topology, allowed, f)) {
+  const auto turns = turns_of_face(topology, allowed, f);
+  return std::any_of(turns.begin(), turns.end(), [&](const turn_back& turn) {
+    if (!has(detail::curves_at(topology.loops(f)[turn.loop], turn)))
+      return false;
     editable_topology trial = topology;
-    if (const auto end = narrow_end(trial, allowed, f, turn); end && has(end->ends[0]))
-      return true;
-  }
-  return false;
+    return narrow_end(trial, allowed, f, turn).has_value();
+  });
 }
 
 DOVETAIL_INLINE std::vector<local_id> vertices_of(const editable_topology& topology, const side& one) {
