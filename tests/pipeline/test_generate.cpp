@@ -156,20 +156,17 @@ TEST_CASE(
 
 TEST_CASE("a background of thin walls is not so coarse that its elements are flat") {
   constexpr double size = 0.05, thick = 0.03;
-  const auto of_sheet = [&](double surface_per_subdomain, double given_scale) {
+  const auto of_sheet = [&](double given_scale) {
     generate_options options = in_parts(4);
-    options.background_elements_per_subdomain = surface_per_subdomain;
     options.coarse_scale = given_scale;
     return generate<3>(occt_shape_from(BRepPrimAPI_MakeBox(2, 1, thick).Shape()).model, uniform_size(size),
                        parameters<>{}.with_options(options));
   };
-  for (const double per_subdomain : {10.0, 100.0}) {
-    const auto fine = of_sheet(per_subdomain, 0);
-    CHECK(fine.plan.coarse_scale == doctest::Approx(2.5 * thick / size).epsilon(0.02));
-    const auto coarse = of_sheet(per_subdomain, 6);
-    CHECK(coarse.plan.coarse_scale == 6);
-    CHECK(fine.quality.min_dihedral_deg > coarse.quality.min_dihedral_deg);
-  }
+  const auto fine = of_sheet(0);
+  CHECK(fine.plan.walls.size() > 1000);
+  const auto coarse = of_sheet(6);
+  CHECK(coarse.plan.walls.empty());
+  CHECK(fine.quality.min_dihedral_deg > coarse.quality.min_dihedral_deg);
 }
 
 TEST_CASE("one subdomain needs no volume: the mesh is the one that comes of a background with it") {

@@ -1,3 +1,4 @@
+#include "dovetail/sizing/coarse.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "dovetail/sizing/thin_walls.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -249,24 +250,36 @@ TEST_CASE("a wall between two solids is one for both") {
         doctest::Approx(2 * sizing::elements_in_thin_walls(alone, uniform_size(size), density)));
 }
 
-TEST_CASE("coarse sizes are at most 2.5 times a wall's thickness, where walls have many of the elements") {
-  constexpr double size = 0.02, thick = 0.03, density = 8, wanted = 6;
-  const double per_thickness = 2.5 * thick / size;
-  const auto scale_of = [&](const simplicial_mesh<2>& surface, double elements) {
-    return sizing::scale_within_walls(surface, uniform_size(size), density, elements, wanted);
+TEST_CASE("coarse sizes in a wall are 2.5 times its thickness, and not below the size itself") {
+  constexpr double size = 0.02, scale = 6;
+  const auto in_walls_of = [&](double thick) {
+    simplicial_mesh<2> sheet;
+    append_box(sheet, {0, 0, 0}, {1, 1, thick});
+    append_box(sheet, {0, 0, 1}, {1, 1, 2}); // a cube beside it, which is no wall
+    return sizing::coarse_sizes_in_walls(sheet, uniform_size(size), scale);
   };
-  simplicial_mesh<2> sheet;
-  append_box(sheet, {0, 0, 0}, {1, 1, thick});
-  const double in_sheet = density * thick / (size * size * size);
-  CHECK(scale_of(sheet, in_sheet) == doctest::Approx(per_thickness).epsilon(0.01));
-  // With a block beside it of six times as many elements the sheet does not decide.
-  simplicial_mesh<2> with_block = sheet;
-  append_box(with_block, {0, 0, 1}, {1, 1, 1 + 6 * thick});
-  CHECK(scale_of(with_block, 7 * in_sheet) == wanted);
-  CHECK(scale_of(with_block, 3 * in_sheet) == doctest::Approx(per_thickness).epsilon(0.01));
-  simplicial_mesh<2> thin; // for the size itself
-  append_box(thin, {0, 0, 0}, {1, 1, 0.2 * size});
-  CHECK(scale_of(thin, 3 * elements_per_unit<2> / (size * size)) == 1);
+  for (const double thick : {0.03, 0.04}) {
+    const auto sizes = in_walls_of(thick);
+    CHECK(sizes.size() > 4000); // about as many as on the cube
+    for (const sized_point& p : sizes) {
+      CHECK(p.point.z <= thick);
+      if (p.point.z == 0 || p.point.z == thick) // rays from the rim may leave through its corners
+        CHECK(p.size == doctest::Approx(2.5 * thick));
+    }
+  }
+  for (const sized_point& p : in_walls_of(0.004))
+    CHECK(p.size >= size);
+  for (const sized_point& p : in_walls_of(0.06)) // 2.5 times as much is more than the coarse size
+    CHECK(p.point.z != 0);
+}
+
+TEST_CASE("a coarse size is as small in walls as they say, grows from there, and is never below the size") {
+  const box3 domain{{0, 0, 0}, {10, 10, 10}};
+  const coarse_size coarse(uniform_size(0.1), 5, domain, {{{5, 5, 5}, 0.2}, {{1, 1, 1}, 0.05}});
+  CHECK(coarse({5, 5, 5}) == doctest::Approx(0.2));
+  CHECK(coarse({5, 5, 5.1}) == doctest::Approx(0.25));
+  CHECK(coarse({1, 1, 1}) == doctest::Approx(0.1));
+  CHECK(coarse({9, 9, 9}) == doctest::Approx(0.5));
 }
 
 TEST_CASE("a ray meets the nearest triangle in its way, not the one it starts from") {

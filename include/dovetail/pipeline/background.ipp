@@ -36,7 +36,8 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   result.plan = detail::plan_of_usable<D>(model, size, given);
   const erased_sizing planned = enlarged(size, result.plan);
   result.size = planned;
-  make(result, coarse_size(planned, result.plan.coarse_scale, model.bounds()), given.run_tasks);
+  make(result, coarse_size(planned, result.plan.coarse_scale, model.bounds(), result.plan.walls),
+       given.run_tasks);
   result.size = allowed_size<D>(planned, result.bounds);
   if (result.plan.size_scale != 1)
     result.summary.warnings.push_back("the sizes were enlarged by a factor of " +
@@ -63,14 +64,14 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
                                        options.on_progress);
     };
     auto surface = surface_at(coarse);
-    if (D == 3 && result.plan.largest_scale > result.plan.coarse_scale &&
+    if (D == 3 && options.coarse_scale == 0 && result.plan.subdomains > 1 &&
         has_form_for_background(given.mesh_it) &&
         static_cast<double>(surface.surface.mesh.elements.size()) >
             result.plan.subdomains * options.background_elements_per_subdomain) {
       // Small sizes at the surface alone make more elements than are needed; where they are made without
       // regard to their angles, it takes so many to find clean interfaces among them.
-      result.plan.coarse_scale = result.plan.largest_scale;
-      coarse = coarse_size(result.size, result.plan.coarse_scale, model.bounds());
+      result.plan.coarse_scale *= 2;
+      coarse = coarse_size(result.size, result.plan.coarse_scale, model.bounds(), result.plan.walls);
       surface = surface_at(coarse);
     }
     result.summary.children.push_back(std::move(surface.summary));

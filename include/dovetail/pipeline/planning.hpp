@@ -9,6 +9,7 @@
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/sizing/compose.hpp"
+#include "dovetail/sizing/point_sizes.hpp"
 #include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
@@ -33,16 +34,16 @@ public:
 
 /// What is known before the background mesh: sizes of the mesh and of its decomposition.
 struct mesh_plan {
-  double predicted_elements = 0; ///< elements of the mesh at the given sizes, enlarged ones if they are
-  double relative_error = 0;     ///< estimated: of the integral of sizes, and of what meshers make of it
-  int subdomains = 1;            ///< how many parts the background mesh is to be cut into
-  double coarse_scale = 1;       ///< factor between coarse and final size
-  double largest_scale = 0;      ///< what thin walls leave of twice that factor; 0: it was given
+  double predicted_elements = 0;  ///< elements of the mesh at the given sizes, enlarged ones if they are
+  double relative_error = 0;      ///< estimated: of the integral of sizes, and of what meshers make of it
+  int subdomains = 1;             ///< how many parts the background mesh is to be cut into
+  double coarse_scale = 1;        ///< factor between coarse and final size
+  std::vector<sized_point> walls; ///< coarse sizes in walls thinner than them
   double size_scale = 1; ///< factor between final size and that given (`generate_options::enlarged_above`)
 
-  using fields = field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error, ///< what is stored
-                            &mesh_plan::subdomains, &mesh_plan::coarse_scale, &mesh_plan::largest_scale,
-                            &mesh_plan::size_scale>;
+  using fields =
+      field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error, ///< what is stored
+                 &mesh_plan::subdomains, &mesh_plan::coarse_scale, &mesh_plan::walls, &mesh_plan::size_scale>;
 };
 
 /// The field given as the plan has it.

@@ -183,16 +183,6 @@ inline double elements_beside_surface(const background::coarse_surface_result& m
                                         elements_per_unit_size);
 }
 
-/// Keeps coarse elements from being flat in walls; no scale is then more than twice the one planned.
-inline void limit_scale_by_walls(mesh_plan& plan, const background::coarse_surface_result& made,
-                                 const geometry_topology& topology, const erased_sizing& size,
-                                 double elements_per_unit_size) {
-  plan.largest_scale = sizing::scale_within_walls(
-      sides_of_solids(made.surface, topology), allowed_size<3>(enlarged(size, plan), made.bounds),
-      elements_per_unit_size, plan.predicted_elements, 2 * plan.coarse_scale);
-  plan.coarse_scale = std::min(plan.coarse_scale, plan.largest_scale);
-}
-
 /// Of the elements that a mesher makes in the whole domain, the share that is left in a mesh of pieces that
 /// are improved: edge removal takes some, and beside interfaces, whose points are given, a mesher makes
 /// fewer, in proportion to their area. Measured on solids and built-in models of 0.1 to 6 million elements
@@ -234,8 +224,9 @@ mesh_plan plan_of_prediction(const any_geometry& model, const erased_sizing& siz
   plan.size_scale = size_scale;
   if constexpr (D == 3) {
     if (options.coarse_scale == 0 && plan.subdomains > 1)
-      limit_scale_by_walls(plan, first, model.topology(), size,
-                           elements_per_inverse_cubed_size(given.mesh_it));
+      plan.walls = sizing::coarse_sizes_in_walls(sides_of_solids(first.surface, model.topology()),
+                                                 allowed_size<3>(enlarged(size, plan), first.bounds),
+                                                 plan.coarse_scale);
     plan.predicted_elements *= share_of_elements(plan, is_given(given.improve_it));
   }
   constexpr double of_calibration = 0.1; // of 18 predictions none was farther off

@@ -46,14 +46,12 @@ private:
     unfold(state, flips);
     flips.push_all(state);
     flips.make_delaunay(state);
-    front_parameters how;
-    how.growth = size_growth;
-    front(state, how).run(flips);
+    fill_from_boundary(state, flips);
     smoother smooth(state);
     const std::size_t most_points = 2 * state.point.size() + 1000;
     for (int cycle = 0; cycle < cycles; ++cycle) {
       const std::size_t changes =
-          collapse_short_edges(state, flips) + split_long_edges(state, flips, most_points);
+          collapse_short_edges(state, flips) + split_long_edges(state, flips, long_edge, most_points);
       flip_all(state, flips);
       if (cycle > 0 && changes > 0)
         smooth.wake_all();
@@ -66,6 +64,23 @@ private:
     for (int round = 0; round < repair_rounds; ++round)
       if (repair_worst(state, flips, smooth, hopeless) == 0)
         break;
+  }
+
+  /// Where the surface turns much within the last triangles before the front, as on the inside of a pipe, new
+  /// points would fold them, and it stops there: their edges are split, and it goes on.
+  template <class State>
+  void fill_from_boundary(State& state, flip_queue& flips) const {
+    constexpr int most_sweeps = 8;
+    constexpr double far_too_long = 4; // what the splits of the cycles below cannot mend
+    front_parameters how;
+    how.growth = size_growth;
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      front(state, how).run(flips);
+      if (split_long_edges(state, flips, far_too_long, 2 * state.point.size() + 1000) == 0)
+        return;
+      flips.push_all(state);
+      flips.make_delaunay(state);
+    }
   }
 
   template <class State>
@@ -101,14 +116,16 @@ private:
 
   /// On a face that turns much within one size, such as a tube that is thinner, this and the collapses can
   /// work against each other; so there is an end to the points.
+  /// \param longest times the size
   template <class State>
-  std::size_t split_long_edges(State& state, flip_queue& flips, std::size_t most_points) const {
+  static std::size_t split_long_edges(State& state, flip_queue& flips, double longest,
+                                      std::size_t most_points) {
     std::size_t added = 0;
     const auto corners = static_cast<local_id>(state.table.vertex.size());
     for (local_id c = 0; c < corners && state.point.size() < most_points; ++c) {
       if (!state.table.alive(c / 3) || !state.table.free_side(c) || state.table.twin[c] < c)
         continue;
-      if (state.relative_length(state.table.tail(c), state.table.head(c)) <= long_edge)
+      if (state.relative_length(state.table.tail(c), state.table.head(c)) <= longest)
         continue;
       if (const local_id v = split_at_middle(state, c, flips); v != no_id) {
         flips.raise_quality(state);

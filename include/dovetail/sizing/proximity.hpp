@@ -112,24 +112,6 @@ struct gap_point : sized_point {
   double area = 0; ///< of one of the two faces
 };
 
-/// Adds the size at a sample. Where a limit ended the sampling, so that it stands for an area of many sizes,
-/// it comes at some places of that area, since sizes grow between points.
-inline void add_gap(const surface_sample& s, double size, std::vector<gap_point>& points) {
-  constexpr double sizes_apart = 2, most_per_side = 3;
-  const double side = std::sqrt(std::max(0.0, s.area));
-  const double count = std::clamp(std::ceil(side / (sizes_apart * size)), 1.0, most_per_side);
-  if (count == 1) {
-    points.push_back({{s.point, size}, s.area});
-    return;
-  }
-  const vec3 axis = std::abs(s.normal.x) < 0.7 ? vec3{1, 0, 0} : vec3{0, 1, 0};
-  const vec3 a = normalized(cross(s.normal, axis)), b = cross(s.normal, a);
-  const auto place = [&](double k) { return side * ((k + 0.5) / count - 0.5); };
-  for (double i = 0; i < count; ++i)
-    for (double j = 0; j < count; ++j)
-      points.push_back({{s.point + place(i) * a + place(j) * b, size}, s.area / (count * count)});
-}
-
 /// Sizes of gap / elements at samples.
 template <geometry_model G>
 std::vector<gap_point> gaps_at(std::span<const surface_sample> samples, const G& model,
@@ -151,7 +133,7 @@ std::vector<gap_point> gaps_at(std::span<const surface_sample> samples, const G&
       const bool is_wall = gap < range.smallest && solids[side] != no_id && !meet(s.face, facing->face);
       const double size = size_across(gap, is_wall, options, range);
       if (size < range.largest)
-        add_gap(s, size, points);
+        points.push_back({{s.point, size}, s.area});
     }
   }
   return points;

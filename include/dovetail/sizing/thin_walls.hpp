@@ -6,6 +6,7 @@
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/erased.hpp"
+#include "dovetail/sizing/point_sizes.hpp"
 
 #include <array>
 #include <cstddef>
@@ -42,17 +43,14 @@ private:
 /// \param density elements of edge length 1 per unit of volume, as the integral is multiplied with
 double elements_in_thin_walls(const simplicial_mesh<2>& surface, const any_sizing& h, double density);
 
-/// The largest factor of at most `wanted`, and at least 1, by which sizes of a background mesh may be
-/// enlarged: elements more than 2.5 times as long as walls are thick are flat, and interfaces among them have
-/// small angles. A fifth of the elements may be in such walls. Deterministic. O(samples x log n), for n
-/// triangles.
+/// Sizes of a background mesh in walls that are thinner than it: 2.5 times their thickness, and not below the
+/// mesh's own. Longer elements are flat there, and interfaces among them have small angles. Deterministic.
+/// O(samples x log n), for n triangles.
 /// \param surface as above
 /// \param h edge lengths of the mesh, in the units of the surface
-/// \param density as above
-/// \param elements of the mesh, about
-/// \param wanted the factor without regard to walls
-double scale_within_walls(const simplicial_mesh<2>& surface, const any_sizing& h, double density,
-                          double elements, double wanted);
+/// \param scale the factor between sizes of the background and the mesh
+std::vector<sized_point> coarse_sizes_in_walls(const simplicial_mesh<2>& surface, const any_sizing& h,
+                                               double scale);
 
 } // namespace dovetail::sizing
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/core/sequence.hpp"
 #include "dovetail/sizing/checked_size.hpp"
 #include "dovetail/sizing/prediction.hpp"
 #include "dovetail/sizing/thin_walls.hpp"
@@ -95,12 +94,19 @@ namespace detail {
 /// triangles of edge length h have 4 / sqrt(3) per square of it; the prism between two is three tetrahedra.
 inline constexpr double elements_per_side = 1.5 * elements_per_unit<2>;
 
-/// Calls `visit(size, thickness, area)` for samples of a surface, about as many per element on it everywhere;
-/// a wall is as thick as a ray from the sample is long, up to `reach` times the size.
-template <class Visit>
+/// A sample of the surface of a wall.
+struct wall_sample {
+  vec3 point;
+  double size;      ///< there
+  double thickness; ///< a wall is as thick as a ray from the sample is long
+  double area;      ///< that it stands for
+};
+
+/// Visits samples of a surface, about as many per element on it everywhere; the number is that of
+/// `count(elements on it)`. Thicknesses are looked for up to `reach` times the size.
+template <class Count, class Visit>
 void for_each_wall_sample(const simplicial_mesh<2>& surface, const any_sizing& h, double reach,
-                          const Visit& visit) {
-  constexpr double samples = 20000;
+                          const Count& samples_of, const Visit& visit) {
   const std::size_t count = surface.elements.size();
   std::vector<std::array<vec3, 3>> corners(count);
   std::vector<double> expected(count); // triangles of size h in each
@@ -114,6 +120,7 @@ void for_each_wall_sample(const simplicial_mesh<2>& surface, const any_sizing& h
   }
   if (!(total > 0) || !std::isfinite(total))
     return;
+  const double samples = samples_of(total * elements_per_unit<2>);
   const ray_search rays(surface);
   for (std::size_t t = 0; t < count; ++t) {
     const vec3 inwards = -normalized(cross(corners[t][1] - corners[t][0], corners[t][2] - corners[t][0]));
@@ -122,7 +129,7 @@ void for_each_wall_sample(const simplicial_mesh<2>& surface, const any_sizing& h
     for (std::size_t k = 0; k < n && part > 0; ++k) {
       const vec3 p = point_of_triangle(corners[t], k);
       const double size = dovetail::checked_size(h, p);
-      visit(size, rays.distance(p, inwards, reach * size), part);
+      visit(wall_sample{p, size, rays.distance(p, inwards, reach * size), part});
     }
   }
 }
@@ -134,29 +141,29 @@ DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface,
   constexpr double per_side = detail::elements_per_side;
   const double thick = 2 * per_side / density; // from there on the integral has as many
   double elements = 0;
-  detail::for_each_wall_sample(surface, h, thick, [&](double size, double thickness, double area) {
-    elements += area * std::max(0.0, per_side - 0.5 * density * thickness / size) / (size * size);
-  });
+  detail::for_each_wall_sample(
+      surface, h, thick, [](double) { return 20000.0; },
+      [&](const detail::wall_sample& s) {
+        const double ratio = s.thickness / s.size;
+        elements += s.area * std::max(0.0, per_side - 0.5 * density * ratio) / (s.size * s.size);
+      });
   return elements;
 }
 
-DOVETAIL_INLINE double scale_within_walls(const simplicial_mesh<2>& surface, const any_sizing& h,
-                                          double density, double elements, double wanted) {
-  constexpr double sizes_per_thickness = 2.5, share = 0.2;
-  std::vector<std::pair<double, double>> walls; // the largest factor there, and the elements
-  detail::for_each_wall_sample(
-      surface, h, wanted / sizes_per_thickness, [&](double size, double thickness, double area) {
-        const double ratio = thickness / size, factor = sizes_per_thickness * ratio;
-        if (factor < wanted)
-          walls.push_back(
-              {factor, area / (size * size) * std::max(detail::elements_per_side, 0.5 * density * ratio)});
-      });
-  sort_all(walls);
-  double within = 0;
-  for (const auto& [factor, in_wall] : walls)
-    if (within += in_wall; within > share * elements)
-      return std::clamp(factor, 1.0, wanted);
-  return wanted;
+DOVETAIL_INLINE std::vector<sized_point> coarse_sizes_in_walls(const simplicial_mesh<2>& surface,
+                                                               const any_sizing& h, double scale) {
+  constexpr double sizes_per_thickness = 2.5;
+  const auto four_per_coarse_triangle = [scale](double triangles) {
+    return std::clamp(4 * triangles / (scale * scale), 20000.0, 400000.0);
+  };
+  std::vector<sized_point> sizes;
+  detail::for_each_wall_sample(surface, h, scale / sizes_per_thickness, four_per_coarse_triangle,
+                               [&](const detail::wall_sample& s) {
+                                 const double allowed = sizes_per_thickness * s.thickness;
+                                 if (allowed < scale * s.size)
+                                   sizes.push_back({s.point, std::max(allowed, s.size)});
+                               });
+  return sizes;
 }
 
 } // namespace dovetail::sizing
