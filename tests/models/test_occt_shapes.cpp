@@ -22,6 +22,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <doctest/doctest.h>
+#include <gp_Ax1.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_GTrsf.hxx>
 #include <gp_Pln.hxx>
@@ -158,6 +159,34 @@ TEST_CASE("solids that touch along a line have it in common, inside a face of on
     CHECK(distance(model.curve_point(shared, t), {model.curve_point(shared, t).x, 0.5, 1}) < 1e-9);
   CHECK(distance(model.curve_point(shared, range[0]), model.curve_point(shared, range[1])) ==
         doctest::Approx(0.4));
+}
+
+TEST_CASE("so have they where it is an edge of one of them, or of none") {
+  const auto four_passages = [](const TopoDS_Shape& one, const TopoDS_Shape& other) {
+    TopoDS_Compound both;
+    const BRep_Builder builder;
+    builder.MakeCompound(both);
+    builder.Add(both, one);
+    builder.Add(both, other);
+    const occt_model model = occt_shape_from(both).model;
+    CHECK(testing::joined(testing::faults_of(model)) == "");
+    std::vector<int> passages(model.topology().curves.size(), 0);
+    for (const auto& face : model.topology().faces)
+      for (const auto& coedge : face.coedges)
+        ++passages[coedge.curve];
+    return std::count(passages.begin(), passages.end(), 4);
+  };
+  gp_Trsf turn; // a box on its lower edge
+  turn.SetRotation(gp_Ax1(gp_Pnt(0.3, 0.5, 1), gp_Dir(1, 0, 0)), pi / 6);
+  const TopoDS_Shape plate = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  const TopoDS_Shape box =
+      BRepPrimAPI_MakeBox(gp_Pnt(0.3, 0.5, 1), gp_Pnt(0.7, 0.7, 1.2)).Shape().Moved(turn);
+  CHECK(four_passages(plate, box) == 1);
+  const auto roller = [](double x, double y) { // along x; two of them touch beside their seams
+    return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(x, y, 0), gp_Dir(1, 0, 0), gp_Dir(0, 0, 1)), 0.2, 1.0)
+        .Shape();
+  };
+  CHECK(four_passages(roller(0, 0), roller(0.3, 0.4)) == 1);
 }
 
 TEST_CASE("solids that only come near each other stay as they are") {

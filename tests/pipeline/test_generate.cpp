@@ -155,18 +155,20 @@ TEST_CASE(
 }
 
 TEST_CASE("a background of thin walls is not so coarse that its elements are flat") {
-  constexpr double size = 0.05, thick = 0.03;
+  constexpr double size = 0.05, thick = 0.02;
   const auto of_sheet = [&](double given_scale) {
     generate_options options = in_parts(4);
+    options.background_elements_per_subdomain = 100;
     options.coarse_scale = given_scale;
     return generate<3>(occt_shape_from(BRepPrimAPI_MakeBox(2, 1, thick).Shape()).model, uniform_size(size),
                        parameters<>{}.with_options(options));
   };
   const auto fine = of_sheet(0);
-  CHECK(fine.plan.walls.size() > 1000);
-  const auto coarse = of_sheet(6);
-  CHECK(coarse.plan.walls.empty());
-  CHECK(fine.quality.min_dihedral_deg > coarse.quality.min_dihedral_deg);
+  REQUIRE(fine.plan.coarse_scale * size > 2 * 2.5 * thick);
+  const auto coarse = of_sheet(fine.plan.coarse_scale); // where it is given walls do not count
+  const auto elements = [](const auto& made) { return made.summary.find("background").get("elements"); };
+  CHECK(elements(fine) > 2 * elements(coarse));
+  CHECK(fine.quality.min_dihedral_deg > coarse.quality.min_dihedral_deg + 3);
 }
 
 TEST_CASE("one subdomain needs no volume: the mesh is the one that comes of a background with it") {

@@ -137,19 +137,26 @@ TEST_CASE("a strip that needs too many elements stays as it is") {
   drawing.polygons = {{{{0, 0}, {1, 0}, {1, 0.005}, {0, 0.005}}, "strip"}};
   const any_geometry model = plane_domain(drawing);
   for (const int dimension : {2, 3}) {
-    const double side = 0.5 * sizing::elements_of_growth_along(0.01, 0.1, 0.4, dimension);
-    const detail_fit fit =
-        details_to_fit(model, uniform_size(0.1), {.most_elements = 1e9, .dimension = dimension});
-    CHECK(fit.fitted == 4); // two short edges, two long ones
-    CHECK(fit.left == 0);
-    CHECK(fit.elements > 2 * side);
-    const double ends = fit.elements - 2 * side;
-    CHECK(ends < 2.1 * sizing::elements_of_growth(0.005, 0.1, 0.4, dimension));
-    const detail_fit most =
-        details_to_fit(model, uniform_size(0.1), {.most_elements = side, .dimension = dimension});
-    CHECK(most.fitted < 4);
-    CHECK(most.left > 0);
-    CHECK(most.elements_of_all == doctest::Approx(fit.elements));
+    const auto fit = [&](double most) {
+      return details_to_fit(model, uniform_size(0.1), {.most_elements = most, .dimension = dimension});
+    };
+    const double end = sizing::elements_of_growth(0.005, 0.1, 0.4, dimension);
+    const double along = sizing::elements_of_growth_along(0.01, 0.1, 0.4, dimension);
+    const detail_fit all = fit(1e9);
+    CHECK(all.fitted == 3); // two short edges, and what is between them
+    CHECK(all.left == 0);
+    // Sizes grow from the ends first: beside these the strip adds less.
+    CHECK(all.elements < 2 * end + along);
+    CHECK(all.elements > 2 * end + 0.4 * along);
+    const detail_fit ends = fit(0.99 * all.elements);
+    CHECK(ends.fitted == 2);
+    CHECK(ends.left == 1);
+    CHECK(ends.elements == doctest::Approx(2 * end));
+    CHECK(ends.elements_of_all == doctest::Approx(all.elements));
+    const detail_fit none = fit(1e-3);
+    CHECK(none.fitted == 0);
+    CHECK(none.left == 3);
+    CHECK(none.elements_of_all > 2 * end);
   }
 }
 

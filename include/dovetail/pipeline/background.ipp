@@ -33,11 +33,12 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   }
   background_result<D> result;
   result.summary.name = "background";
-  result.plan = detail::plan_of_usable<D>(model, size, given);
+  result.plan = detail::plan_of_usable<D>(model, size, given, detail::planned::walls_too);
   const erased_sizing planned = enlarged(size, result.plan);
   result.size = planned;
   make(result, coarse_size(planned, result.plan.coarse_scale, model.bounds(), result.plan.walls),
        given.run_tasks);
+  result.plan.walls = {}; // of no further use
   result.size = allowed_size<D>(planned, result.bounds);
   if (result.plan.size_scale != 1)
     result.summary.warnings.push_back("the sizes were enlarged by a factor of " +

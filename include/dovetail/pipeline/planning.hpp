@@ -38,7 +38,7 @@ struct mesh_plan {
   double relative_error = 0;      ///< estimated: of the integral of sizes, and of what meshers make of it
   int subdomains = 1;             ///< how many parts the background mesh is to be cut into
   double coarse_scale = 1;        ///< factor between coarse and final size
-  std::vector<sized_point> walls; ///< coarse sizes in walls thinner than them
+  std::vector<sized_point> walls; ///< coarse sizes in walls, while a background of D = 3 is made
   double size_scale = 1; ///< factor between final size and that given (`generate_options::enlarged_above`)
 
   using fields =

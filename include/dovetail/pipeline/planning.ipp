@@ -5,6 +5,7 @@
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/number_text.hpp"
+#include "dovetail/mesher/background_form.hpp"
 #include "dovetail/mesher/preferences.hpp"
 #include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/planning.hpp"
@@ -222,13 +223,8 @@ mesh_plan plan_of_prediction(const any_geometry& model, const erased_sizing& siz
                                                                    : elements_per_subdomain(given.mesh_it),
                                 options);
   plan.size_scale = size_scale;
-  if constexpr (D == 3) {
-    if (options.coarse_scale == 0 && plan.subdomains > 1)
-      plan.walls = sizing::coarse_sizes_in_walls(sides_of_solids(first.surface, model.topology()),
-                                                 allowed_size<3>(enlarged(size, plan), first.bounds),
-                                                 plan.coarse_scale);
+  if constexpr (D == 3)
     plan.predicted_elements *= share_of_elements(plan, is_given(given.improve_it));
-  }
   constexpr double of_calibration = 0.1; // of 18 predictions none was farther off
   plan.relative_error += of_calibration;
   require_room(plan, options);
@@ -247,11 +243,26 @@ background::coarse_surface_result first_surface(const any_geometry& model, const
                                    options.on_progress);
 }
 
+/// What is in a plan of a background.
+enum class planned { numbers, walls_too };
+
 template <int D, bound_parameters<D> Parameters>
-mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
+mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, const Parameters& given,
+                         planned what) {
   const auto first = first_surface<D>(model, size, given);
   return given.run_tasks.once([&] {
-    return plan_of_prediction<D>(model, size, first, predict_on_surface<D>(model, size, first, given), given);
+    mesh_plan plan =
+        plan_of_prediction<D>(model, size, first, predict_on_surface<D>(model, size, first, given), given);
+    if constexpr (D == 3)
+      if (what == planned::walls_too && given.options.coarse_scale == 0 && plan.subdomains > 1) {
+        const double largest = has_form_for_background(given.mesh_it)
+                                   ? 2 * plan.coarse_scale
+                                   : plan.coarse_scale; // it may be doubled
+        plan.walls =
+            sizing::coarse_sizes_in_walls(sides_of_solids(first.surface, model.topology()),
+                                          allowed_size<3>(enlarged(size, plan), first.bounds), largest);
+      }
+    return plan;
   });
 }
 
@@ -259,7 +270,8 @@ mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, c
 
 template <int D, bound_parameters<D> Parameters>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
-  return detail::plan_of_usable<D>(model, detail::usable_size<D>(model, size, given), given);
+  return detail::plan_of_usable<D>(model, detail::usable_size<D>(model, size, given), given,
+                                   detail::planned::numbers);
 }
 
 template <int D, bound_parameters<D> Parameters>

@@ -74,12 +74,14 @@ private:
     constexpr double far_too_long = 4; // what the splits of the cycles below cannot mend
     front_parameters how;
     how.growth = size_growth;
+    front(state, how).run(flips);
+    const std::size_t most_points = 20 * state.point.size() + 20000; // as where edges bridge curvature
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-      front(state, how).run(flips);
-      if (split_long_edges(state, flips, far_too_long, 2 * state.point.size() + 1000) == 0)
+      if (split_long_edges(state, flips, far_too_long, most_points) == 0)
         return;
       flips.push_all(state);
       flips.make_delaunay(state);
+      front(state, how).run(flips);
     }
   }
 

@@ -26,18 +26,20 @@ public:
   narrow_strips(const G& model, const any_sizing& size, const kept_detail_options& options)
       : model_(model), size_(size), options_(options), chords_(model, size) {}
 
-  /// Adds a detail for each side of a strip. About n log n in the chords of each face.
+  /// Adds a detail for each face with strips. About n log n in the chords of each face.
   void add_to(std::vector<kept_detail>& details) const {
     for (std::size_t f = 0; f < model_.topology().faces.size(); ++f) {
       const auto face = static_cast<local_id>(f);
       const face_chords chords = chords_.passed_by(face);
-      std::vector<kept_detail> sides(model_.topology().faces[f].coedges.size());
-      for (const passed_chord& along : chords.passed)
-        if (const auto width = width_at(face, along, chords))
-          add_places(along, *width, sides[along.coedge]);
-      for (kept_detail& side : sides)
-        if (!side.places.empty())
-          details.push_back(std::move(side));
+      kept_detail strips;
+      for (const passed_chord& along : chords.passed) {
+        const vec3 p = model_.curve_point(along.curve, along.line->middle);
+        const double size = checked_size(size_, p);
+        if (const auto width = width_at(face, along, chords, p, size))
+          add_places(along, *width, size, strips);
+      }
+      if (strips.elements > 0)
+        details.push_back(std::move(strips));
     }
   }
 
@@ -57,10 +59,9 @@ private:
            first[1] == second[1];
   }
 
-  /// The width of the face at the middle of a chord, where it is a small share of the size.
-  std::optional<double> width_at(local_id face, const passed_chord& along, const face_chords& chords) const {
-    const vec3 p = model_.curve_point(along.curve, along.line->middle);
-    const double size = checked_size(size_, p);
+  /// The width of the face at the middle `p` of a chord, where it is a small share of the size there.
+  std::optional<double> width_at(local_id face, const passed_chord& along, const face_chords& chords, vec3 p,
+                                 double size) const {
     const passed_chord* nearest = nullptr;
     double width = narrow_share() * size;
     chords.tree.for_each_near(
@@ -95,21 +96,20 @@ private:
 
   /// Places along a chord so near to each other that sizes are small between them, too. A strip has two
   /// sides, each of which counts half of its elements.
-  void add_places(const passed_chord& along, double width, kept_detail& side) const {
+  void add_places(const passed_chord& along, double width, double size, kept_detail& strips) const {
     const curve_chord& line = *along.line;
-    const double size = checked_size(size_, line.ends[0]);
     const double fitted =
         std::max({widths_per_size * width, options_.least_size, options_.touching_share * size});
     if (!(fitted < size))
       return;
-    side.elements +=
+    strips.elements +=
         0.5 * line.length() * elements_of_growth_along(fitted, size, options_.growth, options_.dimension);
-    if (side.elements > options_.most_elements)
+    if (strips.elements > options_.most_elements)
       return; // it is left as it is
     const double count = std::ceil(line.length() / fitted);
     for (double k = 0; k < count; ++k) {
       const double share = (k + 0.5) / count;
-      side.places.push_back({(1 - share) * line.ends[0] + share * line.ends[1], fitted});
+      strips.places.push_back({(1 - share) * line.ends[0] + share * line.ends[1], fitted});
     }
   }
 

@@ -44,7 +44,8 @@ private:
 double elements_in_thin_walls(const simplicial_mesh<2>& surface, const any_sizing& h, double density);
 
 /// Sizes of a background mesh in walls that are thinner than it: 2.5 times their thickness, and not below the
-/// mesh's own. Longer elements are flat there, and interfaces among them have small angles. Deterministic.
+/// mesh's own. Longer elements are flat there, and interfaces among them have small angles. None where walls
+/// are less than about a hundredth of the surface, in elements on it. Deterministic.
 /// O(samples x log n), for n triangles.
 /// \param surface as above
 /// \param h edge lengths of the mesh, in the units of the surface

@@ -102,8 +102,8 @@ struct wall_sample {
   double area;      ///< that it stands for
 };
 
-/// Visits samples of a surface, about as many per element on it everywhere; the number is that of
-/// `count(elements on it)`. Thicknesses are looked for up to `reach` times the size.
+/// Visits samples of a surface, about as many per element on it everywhere: in all `samples_of(triangles on
+/// it)`. Thicknesses are looked for up to `reach` times the size.
 template <class Count, class Visit>
 void for_each_wall_sample(const simplicial_mesh<2>& surface, const any_sizing& h, double reach,
                           const Count& samples_of, const Visit& visit) {
@@ -153,17 +153,22 @@ DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface,
 DOVETAIL_INLINE std::vector<sized_point> coarse_sizes_in_walls(const simplicial_mesh<2>& surface,
                                                                const any_sizing& h, double scale) {
   constexpr double sizes_per_thickness = 2.5;
-  const auto four_per_coarse_triangle = [scale](double triangles) {
-    return std::clamp(4 * triangles / (scale * scale), 20000.0, 400000.0);
+  const auto sampled = [&](const auto& count) {
+    std::vector<sized_point> sizes;
+    detail::for_each_wall_sample(surface, h, scale / sizes_per_thickness, count,
+                                 [&](const detail::wall_sample& s) {
+                                   const double allowed = sizes_per_thickness * s.thickness;
+                                   if (allowed < scale * s.size)
+                                     sizes.push_back({s.point, std::max(allowed, s.size)});
+                                 });
+    return sizes;
   };
-  std::vector<sized_point> sizes;
-  detail::for_each_wall_sample(surface, h, scale / sizes_per_thickness, four_per_coarse_triangle,
-                               [&](const detail::wall_sample& s) {
-                                 const double allowed = sizes_per_thickness * s.thickness;
-                                 if (allowed < scale * s.size)
-                                   sizes.push_back({s.point, std::max(allowed, s.size)});
-                               });
-  return sizes;
+  constexpr double first_look = 4000, least_share = 0.01;
+  if (static_cast<double>(sampled([&](double) { return first_look; }).size()) < least_share * first_look)
+    return {};
+  return sampled([scale](double triangles) { // about two per coarse triangle
+    return std::clamp(2 * triangles / (scale * scale), 20000.0, 200000.0);
+  });
 }
 
 } // namespace dovetail::sizing

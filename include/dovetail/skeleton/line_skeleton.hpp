@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,8 +49,8 @@ private:
   /// Whether a region may have chords that another one must not have then.
   bool comes_before(local_id region, local_id other) const;
 
-  /// Whether both regions are flat, and in one plane.
-  bool are_in_one_plane(local_id a, local_id b) const;
+  /// By what a curved region tells others apart: flat ones by their plane.
+  local_id told_apart_by(local_id region, local_id other) const;
 
   /// Of each point the regions before this one that are at another of the points too, numbered in the order
   /// of their appearance, behind their count; for a curved region those in one plane have one number.
@@ -60,10 +59,9 @@ private:
   /// Points of the CAD curves that a coarse triangle touches.
   void add_region(local_id region, const simplex<2>& triangle, const numbered_lines& lines);
 
-  std::vector<simplex<1>> edges_;                    ///< of all lines, sorted
-  std::vector<std::vector<local_id>> regions_at_;    ///< per point; empty for points on no CAD curve
-  std::vector<std::optional<surface_frame>> planes_; ///< per region; of curved ones none
-  double extent_;                                    ///< of the model
+  std::vector<simplex<1>> edges_;                 ///< of all lines, sorted
+  std::vector<std::vector<local_id>> regions_at_; ///< per point; empty for points on no CAD curve
+  std::vector<local_id> plane_of_;                ///< per region the number of its plane; of curved ones none
 };
 
 /// The regions of each subsurface, growing.

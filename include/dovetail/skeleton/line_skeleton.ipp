@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -65,11 +66,13 @@ DOVETAIL_INLINE simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& sur
 DOVETAIL_INLINE chord_rule::chord_rule(const any_geometry& model, const coarse_skeleton& skeleton,
                                        const simplicial_skeleton<2>& fine, const numbered_lines& lines,
                                        const surface_mesh& surface)
-    : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()),
-      extent_(model.bounds().diagonal()) {
-  planes_.reserve(skeleton.regions.size());
+    : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()) {
+  constexpr double tolerance = 1e-6;
+  std::vector<std::optional<surface_frame>> planes;
+  planes.reserve(skeleton.regions.size());
   for (const skeleton_region& region : skeleton.regions)
-    planes_.push_back(model.plane_of_face(region.cad_face));
+    planes.push_back(model.plane_of_face(region.cad_face));
+  plane_of_ = plane_numbers(planes, model.bounds().diagonal(), tolerance);
   for (simplex<1>& edge : edges_)
     edge = sorted_vertices(edge);
   sort_unique(edges_);
@@ -82,21 +85,22 @@ DOVETAIL_INLINE chord_rule::chord_rule(const any_geometry& model, const coarse_s
 }
 
 DOVETAIL_INLINE bool chord_rule::comes_before(local_id region, local_id other) const {
-  const bool is_flat = planes_[region].has_value();
-  return is_flat == planes_[other].has_value() ? region < other : is_flat;
+  const bool is_flat = plane_of_[region] != no_id;
+  return is_flat == (plane_of_[other] != no_id) ? region < other : is_flat;
 }
 
-DOVETAIL_INLINE bool chord_rule::are_in_one_plane(local_id a, local_id b) const {
-  return planes_[a] && planes_[b] && are_coplanar(*planes_[a], *planes_[b], extent_, 1e-6);
+DOVETAIL_INLINE local_id chord_rule::told_apart_by(local_id region, local_id other) const {
+  const auto regions = static_cast<local_id>(plane_of_.size());
+  return plane_of_[region] == no_id && plane_of_[other] != no_id ? regions + plane_of_[other] : other;
 }
 
 DOVETAIL_INLINE bool chord_rule::forbids(local_id region, local_id a, local_id b) const {
   const auto& at_a = regions_at_[a];
   const auto& at_b = regions_at_[b];
   const auto is_at_b = [&](local_id r) {
-    return std::binary_search(at_b.begin(), at_b.end(), r) ||
-           (!planes_[region] && std::any_of(at_b.begin(), at_b.end(),
-                                            [&](local_id other) { return are_in_one_plane(r, other); }));
+    return std::any_of(at_b.begin(), at_b.end(), [&](local_id other) {
+      return told_apart_by(region, other) == told_apart_by(region, r);
+    });
   };
   const bool an_earlier_region = std::any_of(
       at_a.begin(), at_a.end(), [&](local_id r) { return comes_before(r, region) && is_at_b(r); });
@@ -121,25 +125,18 @@ DOVETAIL_INLINE content_key chord_rule::key(std::span<const local_id> regions,
 
 DOVETAIL_INLINE std::vector<std::int64_t>
 chord_rule::earlier_regions(local_id region, std::span<const local_id> points) const {
-  std::map<local_id, local_id> first_in_plane; // of every region met, which is it itself if it is curved
   std::map<local_id, std::size_t> met;
   for (const local_id point : points)
-    for (const local_id r : regions_at_[point]) {
-      const auto [found, is_new] = first_in_plane.try_emplace(r, r);
-      if (is_new && !planes_[region])
-        for (const auto& [other, first] : first_in_plane)
-          if (other != r && are_in_one_plane(other, r))
-            found->second = first;
-      ++met[found->second];
-    }
+    for (const local_id r : regions_at_[point])
+      ++met[told_apart_by(region, r)];
   std::map<local_id, std::int64_t> number;
   std::vector<std::int64_t> listed;
   for (const local_id point : points) {
     const std::size_t at = listed.size();
     listed.push_back(0);
     for (const local_id r : regions_at_[point])
-      if (const local_id first = first_in_plane[r]; comes_before(r, region) && met[first] > 1) {
-        listed.push_back(number.try_emplace(first, static_cast<std::int64_t>(number.size())).first->second);
+      if (const local_id name = told_apart_by(region, r); comes_before(r, region) && met[name] > 1) {
+        listed.push_back(number.try_emplace(name, static_cast<std::int64_t>(number.size())).first->second);
         ++listed[at];
       }
   }

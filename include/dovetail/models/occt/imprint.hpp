@@ -95,15 +95,16 @@ inline std::array<std::size_t, 2> pair_that_fails(const attributed_shape& input,
   return pairs.front();
 }
 
-/// Numbers of vertices, curves, faces, faces between two solids, and faces in none.
-inline std::array<std::size_t, 5> entity_counts(const brep& data) {
+/// Numbers of vertices, curves, passages of curves, faces, faces between two solids, and faces in none.
+inline std::array<std::size_t, 6> entity_counts(const brep& data) {
   const auto& faces = data.topology.faces;
-  std::size_t common = 0, free = 0;
+  std::size_t passages = 0, common = 0, free = 0;
   for (const auto& face : faces) {
+    passages += face.coedges.size();
     common += face.solids[1] != no_id ? 1 : 0;
     free += face.solids[0] == no_id ? 1 : 0;
   }
-  return {data.topology.vertices.size(), data.edges.size(), faces.size(), common, free};
+  return {data.topology.vertices.size(), data.edges.size(), passages, faces.size(), common, free};
 }
 
 /// Replaces `data` by the general fuse of some of its bodies when a solid touches or overlaps anything; false

@@ -97,13 +97,17 @@ private:
       item.solids[1] = solid;
   }
 
-  /// An edge inside one face that bounds another one is where two solids touch along a line: both have it.
+  /// An edge inside a face that bounds another one, or is inside another one, is where two solids touch along
+  /// a line: both have it.
   void find_rims() {
+    TopTools_MapOfShape inner;
     for (const TopoDS_Face& face : result_.faces)
-      for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next())
-        if (edges.Current().Orientation() == TopAbs_FORWARD ||
-            edges.Current().Orientation() == TopAbs_REVERSED)
-          rims_.Add(edges.Current());
+      for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+        const TopoDS_Shape& edge = edges.Current();
+        const bool bounds = edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
+        if (bounds || !inner.Add(edge))
+          rims_.Add(edge);
+      }
   }
 
   void add_loops(local_id f) {
@@ -239,7 +243,7 @@ private:
   double size_; ///< diagonal of the shape
   brep result_;
   TopTools_IndexedMapOfShape face_ids_, edge_ids_, vertex_map_;
-  TopTools_MapOfShape rims_; ///< edges that bound a face
+  TopTools_MapOfShape rims_; ///< edges that bound a face, or are inside of two
   std::map<int, std::size_t> vertex_ids_;
   std::vector<double> measured_; ///< per curve: the largest distance to its faces
 };
