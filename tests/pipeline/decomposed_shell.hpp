@@ -24,11 +24,17 @@ inline any_geometry shell(double inner_radius) {
       occt_shape_from(BRepAlgoAPI_Cut(ball, BRepPrimAPI_MakeSphere(inner_radius).Shape()).Shape()).model);
 }
 
+/// A scale of the background that is given, so that it does not regard walls: interfaces among flat elements
+/// of a thin shell cross.
+inline constexpr double flat_in_shells = 1.5;
+
 /// A decomposed coarse mesh of the shell, before anything is realized.
 struct decomposed_shell {
   decomposed_shell(double inner_radius, int parts) : decomposed_shell(shell(inner_radius), parts) {}
   decomposed_shell(const any_geometry& shape, int parts)
-      : model(shape), given(parameters<>{}.with_mesher(mesher::tetgen{}).with_options({.subdomains = parts})),
+      : model(shape), given(parameters<>{}
+                                .with_mesher(mesher::tetgen{})
+                                .with_options({.subdomains = parts, .coarse_scale = flat_in_shells})),
         background(make_background<3>(model, uniform_size(0.2), given)) {
     const simplicial_mesh<3>& volume = background.mesh.volume;
     divided.sides = build_sides(volume);

@@ -228,6 +228,7 @@ TEST_CASE(
   };
   generate_options options;
   options.subdomains = 16;
+  options.coarse_scale = testing::flat_in_shells;
   options.store = spool::start(scratch, {});
   int searches = 0;
   options.on_progress.update = [&searches](std::string_view stage, std::size_t, std::size_t tasks) {
@@ -424,6 +425,7 @@ TEST_CASE("After merges a search near new patches finds what a search of everyth
 TEST_CASE("Where the faces of a shell cross, their size is made smaller until they do not") {
   generate_options options;
   options.subdomains = 20;
+  options.coarse_scale = testing::flat_in_shells;
   options.largest_merged_fraction = 1;
   const auto result = generate<3>(shell(0.992), uniform_size(0.2),
                                   parameters<>{}.with_mesher(mesher::tetgen{}).with_options(options));

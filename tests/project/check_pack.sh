@@ -35,7 +35,7 @@ prefix=$work/unpacked/dovetail-$version-headers
 headers() { (cd "$1" && find dovetail -name '*.[hi]pp' | LC_ALL=C sort); }
 diff <(headers "$source_directory/include") <(headers "$prefix/include")
 components=$(cd "$prefix/lib/cmake/dovetail" && echo dovetail-*-targets.cmake)
-[[ $components == dovetail-core-targets.cmake ]] || fail "there are components that nobody asked for: $components"
+[[ $components == dovetail-modules-targets.cmake ]] || fail "there are components that nobody asked for: $components"
 if command -v dpkg-deb >/dev/null; then
   dpkg-deb -x "dovetail-$version-headers.deb" "$work/of_deb"
   diff <(headers "$source_directory/include") <(headers "$work/of_deb/usr/include")

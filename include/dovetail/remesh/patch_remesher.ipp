@@ -66,6 +66,21 @@ private:
         break;
   }
 
+  /// Whether the boundary turns by 40 degrees within a size, as that of a tube thinner than it: more points
+  /// would make no better triangles.
+  template <class State>
+  static bool turns_within_sizes(const State& state) {
+    constexpr double cosine = 0.77;
+    for (local_id c = 0; c < static_cast<local_id>(state.table.vertex.size()); ++c) {
+      if (!state.table.alive(c / 3) || state.table.free_side(c))
+        continue;
+      const local_id a = state.table.tail(c), b = state.table.head(c);
+      if (dot(state.normal[a], state.normal[b]) < cosine)
+        return true;
+    }
+    return false;
+  }
+
   /// Where the surface turns much within the last triangles before the front, as on the inside of a pipe, new
   /// points would fold them, and it stops there: their edges are split, and it goes on.
   template <class State>
@@ -75,6 +90,8 @@ private:
     front_parameters how;
     how.growth = size_growth;
     front(state, how).run(flips);
+    if (turns_within_sizes(state))
+      return;
     const std::size_t most_points = 20 * state.point.size() + 20000; // as where edges bridge curvature
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       if (split_long_edges(state, flips, far_too_long, most_points) == 0)
