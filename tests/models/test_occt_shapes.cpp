@@ -54,6 +54,25 @@ void check_solid(const TopoDS_Shape& shape, double volume, double area) {
         doctest::Approx(volume).epsilon(0.02));
 }
 
+/// Reads two bodies together.
+occt_model both_of(const TopoDS_Shape& one, const TopoDS_Shape& other) {
+  TopoDS_Compound both;
+  const BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, one);
+  builder.Add(both, other);
+  return occt_shape_from(both).model;
+}
+
+/// How often faces pass along each curve.
+std::vector<int> passages_of_curves(const geometry_topology& topology) {
+  std::vector<int> passages(topology.curves.size(), 0);
+  for (const auto& face : topology.faces)
+    for (const auto& coedge : face.coedges)
+      ++passages[coedge.curve];
+  return passages;
+}
+
 TopLoc_Location away() {
   gp_Trsf move;
   move.SetTranslation(gp_Vec(9, 0, 0));
@@ -136,24 +155,15 @@ TEST_CASE("solids that touch along a line have it in common, inside a face of on
   const TopoDS_Shape plate = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
   const TopoDS_Shape roller =
       BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0.3, 0.5, 1.2), gp_Dir(1, 0, 0)), 0.2, 0.4).Shape();
-  TopoDS_Compound both;
-  const BRep_Builder builder;
-  builder.MakeCompound(both);
-  builder.Add(both, plate);
-  builder.Add(both, roller);
-  const occt_model model = occt_shape_from(both).model;
+  const occt_model model = both_of(plate, roller);
   CHECK(testing::joined(testing::faults_of(model)) == "");
   const geometry_topology& topology = model.topology();
   REQUIRE(topology.solids.size() == 2);
-  std::vector<int> passages(topology.curves.size(), 0);
-  local_id shared = no_id;
-  for (const auto& face : topology.faces)
-    for (const auto& coedge : face.coedges)
-      if (++passages[coedge.curve] == 4)
-        shared = coedge.curve;
-  CHECK(std::count(passages.begin(), passages.end(), 4) ==
-        1); // twice by the plate's face, by two of the roller
-  REQUIRE(shared != no_id);
+  const std::vector<int> passages =
+      passages_of_curves(topology); // twice by the plate's face, by two of the roller
+  REQUIRE(std::count(passages.begin(), passages.end(), 4) == 1);
+  const auto shared =
+      static_cast<local_id>(std::find(passages.begin(), passages.end(), 4) - passages.begin());
   const auto& range = topology.curves[shared].t;
   for (const double t : {range[0], 0.5 * (range[0] + range[1]), range[1]})
     CHECK(distance(model.curve_point(shared, t), {model.curve_point(shared, t).x, 0.5, 1}) < 1e-9);
@@ -163,17 +173,9 @@ TEST_CASE("solids that touch along a line have it in common, inside a face of on
 
 TEST_CASE("so have they where it is an edge of one of them, or of none") {
   const auto four_passages = [](const TopoDS_Shape& one, const TopoDS_Shape& other) {
-    TopoDS_Compound both;
-    const BRep_Builder builder;
-    builder.MakeCompound(both);
-    builder.Add(both, one);
-    builder.Add(both, other);
-    const occt_model model = occt_shape_from(both).model;
+    const occt_model model = both_of(one, other);
     CHECK(testing::joined(testing::faults_of(model)) == "");
-    std::vector<int> passages(model.topology().curves.size(), 0);
-    for (const auto& face : model.topology().faces)
-      for (const auto& coedge : face.coedges)
-        ++passages[coedge.curve];
+    const std::vector<int> passages = passages_of_curves(model.topology());
     return std::count(passages.begin(), passages.end(), 4);
   };
   gp_Trsf turn; // a box on its lower edge

@@ -23,12 +23,15 @@ inline bool are_coplanar(const surface_frame& a, const surface_frame& b, double 
 }
 
 /// Numbers of planes: the same for those that are `are_coplanar` with the first of their number; `no_id`
-/// where there is none. Complexity: n log n, for planes that are in few directions and places nearly the
-/// same. \param planes frames of planes, or none \param extent as there \param tolerance as there
+/// where there is none.
+/// Complexity: n log n, as long as few different planes have nearly the same direction and place.
+/// \param planes frames of planes, or none
+/// \param extent a length, as that of the model's diagonal
+/// \param tolerance of the sine of angles, and of lengths as a share of `extent`
 inline std::vector<local_id> plane_numbers(const std::vector<std::optional<surface_frame>>& planes,
                                            double extent, double tolerance) {
   // Planes that are the same have nearly the same value of a smooth function of normal and offset.
-  constexpr vec3 direction{0.6123, 0.3571, 0.7054};
+  constexpr vec3 direction{0.6123, 0.3571, 0.7054}, weights{0.8419, 0.2237, 0.4911}; // of no model's planes
   constexpr double of_offset = 0.7321, window = 8;
   std::vector<std::pair<double, std::size_t>> by_value;
   for (std::size_t i = 0; i < planes.size(); ++i)
@@ -36,7 +39,6 @@ inline std::vector<local_id> plane_numbers(const std::vector<std::optional<surfa
       vec3 n = normalized(cross(planes[i]->du, planes[i]->dv));
       if (dot(n, direction) < 0)
         n = -n;
-      const vec3 weights{0.8419, 0.2237, 0.4911};
       by_value.emplace_back(dot(n, weights) + of_offset * dot(n, planes[i]->point) / extent, i);
     }
   sort_all(by_value);

@@ -12,7 +12,9 @@ namespace dovetail {
 
 /// Which details sizes are to fit, and how far that goes.
 struct kept_detail_options {
-  double share_of_size = 0.25;   ///< up to this share of the size there a length is a detail's; at most 1
+  /// Up to this share of the size there a length is a detail's, and up to twice that the width of a strip; at
+  /// most 1.
+  double share_of_size = 0.25;
   double touching_share = 0.001; ///< vertices nearer to a curve than this share of the size are on it
   double least_size = 0;         ///< no size becomes smaller, nor than `touching_share` of what it was
   double growth = 0.4;           ///< of the size per length away from details

@@ -142,6 +142,7 @@ private:
                        [&](vec3 in) { return dot(in, way) > least_leaving; }) &&
            dot(chords_.into_face(f, at_foot), -way) > least_arriving;
   }
+
   void add(double length, const std::vector<vec3>& places) {
     const double size = size_at(places.front());
     const double fitted = std::max({length, options_.least_size, options_.touching_share * size});

@@ -102,37 +102,54 @@ struct wall_sample {
   double area;      ///< that it stands for
 };
 
-/// Visits samples of a surface, about as many per element on it everywhere: in all `samples_of(triangles on
-/// it)`. Thicknesses are looked for up to `reach` times the size.
-template <class Count, class Visit>
-void for_each_wall_sample(const simplicial_mesh<2>& surface, const any_sizing& h, double reach,
-                          const Count& samples_of, const Visit& visit) {
-  const std::size_t count = surface.elements.size();
-  std::vector<std::array<vec3, 3>> corners(count);
-  std::vector<double> expected(count); // triangles of size h in each
-  double total = 0;
-  for (std::size_t t = 0; t < count; ++t) {
-    const auto& v = surface.elements[t];
-    corners[t] = {surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]};
-    const double size = dovetail::checked_size(h, (corners[t][0] + corners[t][1] + corners[t][2]) / 3);
-    expected[t] = measure_of<2>(corners[t]) / (size * size);
-    total += expected[t];
+/// Samples a surface, about as densely per element on it everywhere.
+class wall_sampler {
+public:
+  /// Both must outlive the object. Linear in the triangles, but for the tree of the rays.
+  wall_sampler(const simplicial_mesh<2>& surface, const any_sizing& h)
+      : surface_(surface), h_(h), rays_(surface), expected_(surface.elements.size()) {
+    for (std::size_t t = 0; t < expected_.size(); ++t) {
+      const auto p = corners(t);
+      const double size = dovetail::checked_size(h, (p[0] + p[1] + p[2]) / 3);
+      expected_[t] = measure_of<2>(p) / (size * size);
+      total_ += expected_[t];
+    }
+    if (!std::isfinite(total_))
+      total_ = 0;
   }
-  if (!(total > 0) || !std::isfinite(total))
-    return;
-  const double samples = samples_of(total * elements_per_unit<2>);
-  const ray_search rays(surface);
-  for (std::size_t t = 0; t < count; ++t) {
-    const vec3 inwards = -normalized(cross(corners[t][1] - corners[t][0], corners[t][2] - corners[t][0]));
-    const auto n = static_cast<std::size_t>(std::ceil(samples * expected[t] / total));
-    const double part = measure_of<2>(corners[t]) / static_cast<double>(n);
-    for (std::size_t k = 0; k < n && part > 0; ++k) {
-      const vec3 p = point_of_triangle(corners[t], k);
-      const double size = dovetail::checked_size(h, p);
-      visit(wall_sample{p, size, rays.distance(p, inwards, reach * size), part});
+
+  double triangles() const {
+    return elements_per_unit<2> * total_;
+  } ///< of the mesh on it; 0 if none is sampled
+
+  /// Visits about so many samples. Thicknesses are looked for up to `reach` times the size.
+  template <class Visit>
+  void for_each(double samples, double reach, const Visit& visit) const {
+    for (std::size_t t = 0; total_ > 0 && t < expected_.size(); ++t) {
+      const auto p = corners(t);
+      const vec3 inwards = -normalized(cross(p[1] - p[0], p[2] - p[0]));
+      const auto n = static_cast<std::size_t>(std::ceil(samples * expected_[t] / total_));
+      const double part = measure_of<2>(p) / static_cast<double>(n);
+      for (std::size_t k = 0; k < n && part > 0; ++k) {
+        const vec3 at = point_of_triangle(p, k);
+        const double size = dovetail::checked_size(h_, at);
+        visit(wall_sample{at, size, rays_.distance(at, inwards, reach * size), part});
+      }
     }
   }
-}
+
+private:
+  std::array<vec3, 3> corners(std::size_t t) const {
+    const auto& v = surface_.elements[t];
+    return {surface_.points[v[0]], surface_.points[v[1]], surface_.points[v[2]]};
+  }
+
+  const simplicial_mesh<2>& surface_;
+  const any_sizing& h_;
+  ray_search rays_;
+  std::vector<double> expected_; ///< elements on each triangle, but for a factor
+  double total_ = 0;
+};
 
 } // namespace detail
 
@@ -140,35 +157,32 @@ DOVETAIL_INLINE double elements_in_thin_walls(const simplicial_mesh<2>& surface,
                                               double density) {
   constexpr double per_side = detail::elements_per_side;
   const double thick = 2 * per_side / density; // from there on the integral has as many
+  constexpr double samples = 20000;
   double elements = 0;
-  detail::for_each_wall_sample(
-      surface, h, thick, [](double) { return 20000.0; },
-      [&](const detail::wall_sample& s) {
-        const double ratio = s.thickness / s.size;
-        elements += s.area * std::max(0.0, per_side - 0.5 * density * ratio) / (s.size * s.size);
-      });
+  detail::wall_sampler(surface, h).for_each(samples, thick, [&](const detail::wall_sample& s) {
+    const double ratio = s.thickness / s.size;
+    elements += s.area * std::max(0.0, per_side - 0.5 * density * ratio) / (s.size * s.size);
+  });
   return elements;
 }
 
 DOVETAIL_INLINE std::vector<sized_point> coarse_sizes_in_walls(const simplicial_mesh<2>& surface,
                                                                const any_sizing& h, double scale) {
   constexpr double sizes_per_thickness = 2.5;
-  const auto sampled = [&](const auto& count) {
+  const detail::wall_sampler sampler(surface, h);
+  const auto sampled = [&](double count) {
     std::vector<sized_point> sizes;
-    detail::for_each_wall_sample(surface, h, scale / sizes_per_thickness, count,
-                                 [&](const detail::wall_sample& s) {
-                                   const double allowed = sizes_per_thickness * s.thickness;
-                                   if (allowed < scale * s.size)
-                                     sizes.push_back({s.point, std::max(allowed, s.size)});
-                                 });
+    sampler.for_each(count, scale / sizes_per_thickness, [&](const detail::wall_sample& s) {
+      const double allowed = sizes_per_thickness * s.thickness;
+      if (allowed < scale * s.size)
+        sizes.push_back({s.point, std::max(allowed, s.size)});
+    });
     return sizes;
   };
-  constexpr double first_look = 4000, least_share = 0.01;
-  if (static_cast<double>(sampled([&](double) { return first_look; }).size()) < least_share * first_look)
+  constexpr double first_look = 4000, least_share = 0.01, per_coarse_triangle = 2;
+  if (static_cast<double>(sampled(first_look).size()) < least_share * first_look)
     return {};
-  return sampled([scale](double triangles) { // about two per coarse triangle
-    return std::clamp(2 * triangles / (scale * scale), 20000.0, 200000.0);
-  });
+  return sampled(std::clamp(per_coarse_triangle * sampler.triangles() / (scale * scale), 20000.0, 200000.0));
 }
 
 } // namespace dovetail::sizing
