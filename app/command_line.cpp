@@ -91,6 +91,9 @@ void add_model_options(CLI::App& command, model_options& options) {
                                       "edges (default: a quarter of the size)");
   command.add_flag("--keep-all", options.keep_all, "Mesh all edges and faces, however short and narrow")
       ->excludes(suppress);
+  command.add_option("--join", options.join,
+                     "Faces nearer than this length to each other are made one there (default: where the "
+                     "surfaces of a CAD model cross, up to a ten-thousandth of its diagonal)");
 }
 
 void add_policy_options(CLI::App& command, mesh_options& options) {

@@ -15,6 +15,7 @@
 #include "stop_request.hpp"
 #include "suppression.hpp"
 #include "terminal_progress.hpp"
+#include "touching_faces.hpp"
 
 #include "dovetail/core/bytes.hpp"
 #include "dovetail/core/number_text.hpp"
@@ -159,8 +160,8 @@ public:
   /// Everything that can be wrong about the options themselves is found before any file is read.
   explicit mesh_run(const mesh_options& options)
       : options_(options), policies_(make_policies_of<D>(options)),
-        parameters_(make_generate_options(options)), suppression_(options_.model, D),
-        formats_(make_formats<D>(options)) {
+        parameters_(make_generate_options(options)), touching_(options_.model, D),
+        suppression_(touching_.options(), D), formats_(make_formats<D>(options)) {
     if (!options_.trace.empty()) {
       trace_.emplace(policies_.executor);
       policies_.executor = any_executor(*trace_, policies_.executor.name());
@@ -173,14 +174,7 @@ public:
       lines_.emplace(stderr);
     parameters_.on_progress = callbacks();
     parameters_.on_progress("geometry", 0, 0);
-    model_source source = load_model(options_.model, D, executor_for_model());
-    figures_.seconds.geometry = clock_.seconds();
-    if (options_.model.elements || source.thin_walls) {
-      resolve_walls(source, options_.model, policies_, parameters_);
-      scale_to_elements(source, options_.model, policies_, parameters_);
-      figures_.seconds.scaling = clock_.seconds() - figures_.seconds.geometry;
-    }
-    suppression_.apply(source);
+    model_source source = touching_.prepared([&] { return prepare(); });
     const run_identity identity = identity_of_run(options_, source);
     for (const auto& [what, value] : identity)
       require_same(what + " " + value);
@@ -220,6 +214,22 @@ public:
   }
 
 private:
+  /// The model and its sizes, as they are meshed.
+  model_source prepare() {
+    const model_options& wanted = touching_.options();
+    const stopwatch clock;
+    model_source source = load_model(wanted, D, executor_for_model());
+    figures_.seconds.geometry += clock.seconds();
+    if (wanted.elements || source.thin_walls) {
+      const stopwatch planning;
+      resolve_walls(source, wanted, policies_, parameters_);
+      scale_to_elements(source, wanted, policies_, parameters_);
+      figures_.seconds.scaling += planning.seconds();
+    }
+    suppression_.apply(source);
+    return source;
+  }
+
   enum class beginning : std::uint8_t { is_finished, goes_on };
 
   /// Throws `usage_error` when this rank starts from something else than the one that leads.
@@ -261,7 +271,9 @@ private:
 
   void make(model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
     const auto volume = volume_aside(source);
-    generated<D> result = suppression_.retried(source, [&] { return generate(source, folder); });
+    generated<D> result = touching_.meshed(
+        source, [&] { return prepare(); },
+        [&] { return suppression_.retried(source, [&] { return generate(source, folder); }); });
     if constexpr (D == 3)
       if (source.volume && result.failures.empty() && parameters_.only.empty())
         compare_volume(result.mesh.skeleton, volume ? volume->wait().value_or(std::nullopt) : source.volume(),
@@ -526,6 +538,7 @@ private:
   std::optional<parallel::traced> trace_;
   const bool leads_ = policies_.executor.leads();
   generate_options parameters_;
+  touching_faces touching_;
   suppression suppression_;
   std::vector<output_format<D>> formats_;
   std::optional<terminal_progress> lines_;

@@ -9,6 +9,7 @@
 #include "stage_figures.hpp"
 #include "suppression.hpp"
 #include "terminal_progress.hpp"
+#include "touching_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,16 +41,23 @@ template <int D>
 int plan_run(const plan_options& options) {
   const policies_of<D> policies = make_policies_of<D>(options.mesh);
   generate_options parameters = make_generate_options(options.mesh);
-  suppression details(options.mesh.model, D);
+  touching_faces touching(options.mesh.model, D);
+  suppression details(touching.options(), D);
   terminal_progress lines(stderr);
   lines.update("geometry", 0, 0);
-  model_source source = load_model(options.mesh.model, D, policies.executor);
   parameters.on_progress = lines.callbacks();
-  resolve_walls(source, options.mesh.model, policies, parameters);
-  scale_to_elements(source, options.mesh.model, policies, parameters);
-  details.apply(source);
-  const mesh_plan plan = details.retried(
-      source, [&] { return plan_generation<D>(source.geometry, source.size, policies, parameters); });
+  const auto prepare = [&] {
+    model_source source = load_model(touching.options(), D, policies.executor);
+    resolve_walls(source, touching.options(), policies, parameters);
+    scale_to_elements(source, touching.options(), policies, parameters);
+    details.apply(source);
+    return source;
+  };
+  model_source source = touching.prepared(prepare);
+  const mesh_plan plan = touching.meshed(source, prepare, [&] {
+    return details.retried(
+        source, [&] { return plan_generation<D>(source.geometry, source.size, policies, parameters); });
+  });
   lines.finish();
 
   plan_figures figures;

@@ -59,6 +59,7 @@ struct read_geometry {
   any_geometry geometry;
   report summary;
   std::function<std::optional<double>()> volume;
+  bool joined = false; ///< whether there were faces to join
 };
 
 /// A plane domain is no model for tetrahedra; what is wrong with its paths is said with the file's name.
@@ -91,8 +92,14 @@ read_geometry cad_geometry(const std::filesystem::path& file, const model_option
                            60 + 40 * megabytes); // it needs about one second per megabyte
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
   const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
-  auto read = read_occt_model(file, {.unit = unit, .entities = entities});
-  return {any_geometry(read.model), std::move(read.report), [model = read.model] { return model.volume(); }};
+  auto read = read_occt_model(file, {.unit = unit, .entities = entities, .join_within = options.join});
+  if (read.joined && options.join_where_crossing)
+    read.report.warnings.push_back((*options.join > 0 ? "surfaces cross, so faces nearer than " +
+                                                            number_text(*options.join, 3) + " to each other"
+                                                      : "surfaces cross where they touch, so faces that do") +
+                                   " were made one there: see --join");
+  return {any_geometry(read.model), std::move(read.report), [model = read.model] { return model.volume(); },
+          read.joined};
 }
 
 read_geometry geometry_of_file(const std::filesystem::path& file, const model_options& options,
@@ -168,7 +175,7 @@ model_source file_source(const model_options& options, const given_sizes& sizes,
                          const any_executor& run) {
   const std::filesystem::path file = options.input;
   const std::string checksum = checksum_if_file(file);
-  auto [geometry, summary, volume] = geometry_of_file(file, options, dimension);
+  auto [geometry, summary, volume, joined] = geometry_of_file(file, options, dimension);
   if (checksum_if_file(file) != checksum)
     throw geometry_error(file.string() + ": the file was changed while it was read; run again");
   const box3 domain = geometry.bounds();
@@ -296,6 +303,10 @@ std::optional<automatic_points> given_sizes::points(const any_geometry& model, b
   return automatic_points(model, options, divided_loop{run});
 }
 
+bool has_faces_to_join(const model_options& options, int dimension) {
+  return geometry_of_file(options.input, options, dimension).joined;
+}
+
 any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {
   if (!is_there(file_or_name)) {
     if (is_builtin(file_or_name))
@@ -317,6 +328,9 @@ model_source load_model(const model_options& options, int dimension, const any_e
   if (is_drawing(options.input) && (options.curvature || options.proximity || options.growth))
     throw command_line_error("--curvature, --proximity, --growth: " + options.input +
                              " is a plane domain, without curved faces and walls; give --size or --sizing");
+  if (options.join && (!(*options.join >= 0) || !std::isfinite(*options.join)))
+    throw command_line_error("--join: " + number_text(*options.join) +
+                             " is not a length; give a positive number or 0");
   const given_sizes sizes(options);
   model_source source =
       options.input.empty()

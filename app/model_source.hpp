@@ -74,6 +74,9 @@ struct model_source {
 model_source load_model(const model_options& options, int dimension = 3,
                         const any_executor& run = parallel::serial{});
 
+/// Whether a CAD file has faces as near to each other as `options.join`, which is given.
+bool has_faces_to_join(const model_options& options, int dimension);
+
 /// The geometry alone of a file, or of the built-in model of that name; a file comes first. Throws the
 /// library's errors, and `input_error` when there is neither.
 any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension);

@@ -21,8 +21,10 @@ struct model_options {
   std::optional<double> elements; ///< the sizes are scaled until the prediction is this number
   /// Of automatic sizes: elements per turn, elements across walls, growth per length.
   std::optional<double> curvature, proximity, growth;
-  std::optional<double> suppress; ///< length up to which details of the model are; none: by the sizes
-  bool keep_all = false;          ///< nothing is a detail
+  std::optional<double> suppress;   ///< length up to which details of the model are; none: by the sizes
+  bool keep_all = false;            ///< nothing is a detail
+  std::optional<double> join;       ///< faces as near as that to each other are joined
+  bool join_where_crossing = false; ///< faces are joined because surfaces cross, or may be
 
   /// Sizes are found by the model: nothing is said of them, or only how.
   bool has_automatic_sizes() const {

@@ -48,6 +48,7 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   if (!options.model.input.empty()) {
     identity.emplace_back("file", source.file);
     identity.emplace_back("unit", options.model.unit);
+    identity.emplace_back("joined", options.model.join ? all_digits(*options.model.join) : "default");
   }
   identity.emplace_back("suppressed", options.model.keep_all   ? "nothing"
                                       : options.model.suppress ? all_digits(*options.model.suppress)

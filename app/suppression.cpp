@@ -54,6 +54,8 @@ suppression::suppression(const model_options& options, int dimension)
 
 void suppression::apply(model_source& source) {
   given_size_ = source.size;
+  as_drawn_.reset();
+  kept_.clear();
   if (!options_.keep_all) {
     as_drawn_ = source.geometry;
     simplify(source);

@@ -4,6 +4,7 @@
 
 #include "model_source.hpp"
 #include "options.hpp"
+#include "touching_faces.hpp"
 
 #include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/sizing/kept_details.hpp"
@@ -26,14 +27,15 @@ public:
   void apply(model_source& source);
 
   /// Calls what meshes the source's geometry; when that blames faces, with these as they were drawn, and so
-  /// on. What is thrown without a face to blame, or when all details are back, is thrown.
+  /// on. What is thrown without a face to blame, or when all details are back, is thrown; so are surfaces
+  /// that cross where touching faces may be joined.
   template <class F>
   auto retried(model_source& source, const F& mesh_it) {
     while (true)
       try {
         return mesh_it();
       } catch (const blames_faces& problem) {
-        if (!keep(source, problem.faces()))
+        if ((is_crossing(problem) && options_.join_where_crossing) || !keep(source, problem.faces()))
           throw;
       }
   }

@@ -115,11 +115,14 @@ private:
       mesh_missing(region_attempts{}.chords);
   }
 
-  /// True when refinement multiplies the folds of a face: then its surface is folded, not its mesh.
+  /// True when refinement multiplies the folds of a face, at once or in two rounds: then its surface is
+  /// folded, not its mesh.
   bool gets_worse(std::size_t f) {
-    std::size_t& before = folds_before_[f];
+    auto& [first, second] = folds_before_[f];
     const std::size_t now = meshes_[f].folded.size();
-    return are_multiplied(std::exchange(before, now), now);
+    const bool multiplied = are_multiplied(first, now) || are_multiplied(second, now);
+    first = std::exchange(second, now);
+    return multiplied;
   }
 
   /// Refines where faces failed; false when there is nothing to do again. Throws on the last round.
@@ -294,7 +297,7 @@ private:
   meshed_regions meshed_;
   std::vector<patch_mesh> meshes_; ///< of the faces
   std::vector<intervals> origins_; ///< of the segments of each face
-  std::map<std::size_t, std::size_t> folds_before_;
+  std::map<std::size_t, std::array<std::size_t, 2>> folds_before_; ///< of a face, in the last two rounds
 };
 
 DOVETAIL_INLINE coarse_surface_result coarse_surface_by(const any_geometry& model, const any_sizing& sizing,

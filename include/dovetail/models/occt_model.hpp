@@ -76,11 +76,16 @@ extern template any_geometry::any_geometry(occt_model);
 struct occt_read_result {
   occt_model model;        ///< the model that was read
   dovetail::report report; ///< what was counted on the way
+  bool joined = false;     ///< whether there were faces to join (`occt_read_options::join_within`)
 };
 
 /// Turns a shape into a model, healing as far as needed. Throws `geometry_error` naming the first entity that
 /// cannot be meshed.
-occt_read_result occt_model_from(occt::attributed_shape input, occt::wanted what = occt::wanted::solids);
+/// \param input the shape with names; it may be changed
+/// \param what solids alone, or faces beside them
+/// \param join_within as in `occt_read_options`
+occt_read_result occt_model_from(occt::attributed_shape input, occt::wanted what = occt::wanted::solids,
+                                 const std::optional<double>& join_within = {});
 
 /// The same for a shape made by the caller's own OCCT code. The shape may be changed by healing.
 occt_read_result occt_shape_from(const TopoDS_Shape& shape, std::string name = "shape",

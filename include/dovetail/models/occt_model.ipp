@@ -9,6 +9,7 @@
 #include "dovetail/models/occt/heal.hpp"
 #include "dovetail/models/occt/read.hpp"
 #include "dovetail/models/occt/repair.hpp"
+#include "dovetail/models/occt/touching_faces.hpp"
 #include "dovetail/models/occt_model.hpp"
 
 #include <algorithm>
@@ -196,13 +197,19 @@ DOVETAIL_INLINE_OCCT std::optional<surface_frame> occt_model::plane_of_face(loca
   return own_->surface(f).frame({0, 0});
 }
 
-DOVETAIL_INLINE_OCCT occt_read_result occt_model_from(occt::attributed_shape input, occt::wanted what) {
+DOVETAIL_INLINE_OCCT occt_read_result occt_model_from(occt::attributed_shape input, occt::wanted what,
+                                                      const std::optional<double>& join_within) {
   const stopwatch watch;
   const std::string source = input.source;
   dovetail::report made;
   made.name = "geometry";
   const occt::silenced quiet;
-  occt::brep data = occt::guarded(source, [&] { return occt::healed_brep(std::move(input), made, what); });
+  bool joined = false;
+  occt::brep data = occt::guarded(source, [&] {
+    occt::brep healed = occt::healed_brep(input, made, what);
+    joined = join_within && occt::join_touching_faces(input, healed, made, what, *join_within);
+    return healed;
+  });
   made.warnings.insert(made.warnings.end(), data.warnings.begin(), data.warnings.end());
   made.set(occt::shape_counts{.solids = data.topology.solids.size(),
                               .faces = data.topology.faces.size(),
@@ -210,7 +217,7 @@ DOVETAIL_INLINE_OCCT occt_read_result occt_model_from(occt::attributed_shape inp
                               .vertices = data.topology.vertices.size()});
   occt_model model(std::move(data));
   made.seconds = watch.seconds();
-  return {std::move(model), std::move(made)};
+  return {std::move(model), std::move(made), joined};
 }
 
 DOVETAIL_INLINE_OCCT occt_read_result occt_shape_from(const TopoDS_Shape& shape, std::string name,
@@ -233,7 +240,7 @@ DOVETAIL_INLINE_OCCT occt_read_result read_occt_model(const std::filesystem::pat
                                                       occt_read_options options) {
   const occt::memory_watch memory;
   try {
-    return occt_model_from(occt::read_shape(path, options), options.entities);
+    return occt_model_from(occt::read_shape(path, options), options.entities, options.join_within);
   } catch (const input_error&) {
     memory.throw_if_short();
     throw;

@@ -2,11 +2,10 @@
 /// Sizes from how near faces are to each other: so many elements across a wall or a gap.
 #pragma once
 
-#include "dovetail/core/box_tree.hpp"
 #include "dovetail/sizing/curvature.hpp"
+#include "dovetail/sizing/facing_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -25,47 +24,6 @@ struct proximity_options {
 };
 
 namespace sizing {
-
-/// Finds, for a sample, the nearest sample on the other side of the solid, or of the gap, beside it.
-class facing_search {
-public:
-  facing_search(std::vector<surface_sample> samples, const geometry_topology& topology)
-      : samples_(std::move(samples)), topology_(topology),
-        tree_(boxes_of_points(samples_, [](const surface_sample& s) { return s.point; }), leaf_size) {
-    tree_.put_in_order(samples_);
-  }
-
-  const std::vector<surface_sample>& samples() const { return samples_; } ///< the samples that it searches
-
-  /// Of the samples that face `from` through what is on its side (0: behind its face, 1: in front), within a
-  /// height of `reach`, the lowest; `slack` is the distance between samples. Null when there is none.
-  const surface_sample* find(const surface_sample& from, std::size_t side, double reach, double slack) const;
-
-private:
-  struct query {
-    const surface_sample& from;
-    local_id solid; ///< that is looked through, or no_id
-    vec3 direction; ///< into it
-    double height;  ///< of the best so far
-    double slack;
-    const surface_sample* best;
-  };
-  static constexpr std::size_t leaf_size = 8;
-  static constexpr double turned_away = 0.8; ///< least cosine between normals; across an edge it is less
-  static constexpr double aside = 0.5;       ///< largest offset along the plane per height
-
-  /// Whether a box may hold a point above the plane, low enough and not too far aside.
-  static bool may_hold(const box3& box, const query& q);
-
-  void consider(const surface_sample& s, query& q) const;
-
-  /// Whether the solid that is looked through ends at a sample, with the face across the direction.
-  bool ends_at(const surface_sample& s, const query& q) const;
-
-  std::vector<surface_sample> samples_;
-  const geometry_topology& topology_;
-  box_tree tree_;
-};
 
 /// Which faces have a curve in common: the gap between such vanishes there, and no size resolves it.
 class meeting_faces {

@@ -166,7 +166,8 @@ inline bool give_up_solids(attributed_shape& input, brep& data, report& made) {
 
 /// The `brep` of a shape, healed. A shape without faults is not touched. Throws `geometry_error` naming the
 /// first entity that no repair mends.
-inline brep healed_brep(attributed_shape input, report& made, wanted what = wanted::solids) {
+/// \param input replaced by what the result is made of
+inline brep healed_brep(attributed_shape& input, report& made, wanted what = wanted::solids) {
   if (sub_shapes(input.shape, TopAbs_FACE).IsEmpty())
     throw geometry_error(input.source + ": the file has no faces, so nothing bounds a volume");
   if (!sub_shapes(input.shape, TopAbs_SOLID).IsEmpty()) {

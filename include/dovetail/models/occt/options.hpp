@@ -28,6 +28,10 @@ struct occt_read_options {
   /// For D = 2, `faces`: also open shells and single faces, such as a plane domain with holes and inner
   /// edges.
   occt::wanted entities = occt::wanted::solids;
+  /// Faces that touch, or are nearer than this length to each other, share what they have in common, also if
+  /// they are of one solid: slits so narrow are closed. Without it contacts of a solid with itself stay what
+  /// they are, and its surfaces cross there. It takes some milliseconds for each face.
+  std::optional<double> join_within = {};
   /// Who reads the file before the caller does, or nobody. With `parallel::processes`, a file on which Open
   /// CASCADE crashes or does not come back is an `input_error` like any other damaged one, and
   /// `on_progress` can stop it; reading takes twice as long. Not where other threads run.

@@ -1,0 +1,155 @@
+#include "dovetail/mesh/distributed_validity.hpp"
+#include "dovetail/models/occt/shape.hpp"
+#include "dovetail/models/occt/touching_faces.hpp"
+#include "dovetail/models/occt_model.hpp"
+#include "dovetail/pipeline/generate.hpp"
+#include "dovetail/sizing/uniform.hpp"
+#include "models/model_checks.hpp"
+
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <TopoDS_Shape.hxx>
+#include <doctest/doctest.h>
+#include <gp_Pnt.hxx>
+#include <gp_Trsf.hxx>
+#include <gp_Vec.hxx>
+
+#include <algorithm>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace dovetail;
+
+namespace {
+
+/// The prism of height 1 over a polygon.
+TopoDS_Shape prism(const std::vector<vec2>& outline) {
+  BRepBuilderAPI_MakePolygon polygon;
+  for (const vec2 p : outline)
+    polygon.Add(gp_Pnt(p.x, p.y, 0));
+  polygon.Close();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire(), true).Face(), gp_Vec(0, 0, 1)).Shape();
+}
+
+/// A bar that is bent to a ring, and ends in a point at `height`: its other end is at 3 to 4.
+TopoDS_Shape ring_with_tip(double height) {
+  return prism({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3}, {3, 3}, {3, 1}, {1, 1}, {0.5, height}, {0, 1}});
+}
+
+/// The same with a flat end, so that a slit is left.
+TopoDS_Shape ring_with_slit(double width) {
+  return prism(
+      {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3 - width}, {0, 3 - width}});
+}
+
+occt_read_result read(const TopoDS_Shape& shape, const std::optional<double>& join_within = {}) {
+  occt::attributed_shape input;
+  input.shape = shape;
+  input.source = "ring";
+  return occt_model_from(std::move(input), occt::wanted::solids, join_within);
+}
+
+/// Meshes it in one piece.
+generated<3> mesh(const occt_model& model) {
+  return generate<3>(model, uniform_size(0.5), parameters<>{}.with_options({.subdomains = 1}));
+}
+
+/// How many faces pass each curve most often.
+int most_passages(const geometry_topology& topology) {
+  std::vector<int> passages(topology.curves.size());
+  for (const auto& face : topology.faces)
+    for (const auto& coedge : face.coedges)
+      ++passages[coedge.curve];
+  return *std::max_element(passages.begin(), passages.end());
+}
+
+} // namespace
+
+TEST_CASE("a solid that touches itself along a line is joined there, where that is wanted") {
+  const auto as_drawn = read(ring_with_tip(3));
+  CHECK_FALSE(as_drawn.joined);
+  CHECK(most_passages(as_drawn.model.topology()) == 2);
+  CHECK_THROWS_AS(mesh(as_drawn.model), intersection_error);
+
+  const auto joined = read(ring_with_tip(3), 0.0);
+  CHECK(joined.joined);
+  CHECK(most_passages(joined.model.topology()) ==
+        4); // two walls of the tip, and the face on both sides of it
+  CHECK(testing::faults_of(joined.model).empty());
+  const auto made = mesh(joined.model);
+  CHECK(made.failures.empty());
+  CHECK(io::check_distributed(made.mesh).valid());
+  CHECK(made.quality.min_dihedral_deg > 12);
+}
+
+TEST_CASE("a slit narrower than the length is closed, a wider one stays") {
+  const double ring = 4 * 4 - 2 * 2;
+  const auto closed = read(ring_with_slit(1e-3), 2e-3);
+  CHECK(closed.joined);
+  CHECK(most_passages(closed.model.topology()) == 2);
+  CHECK(closed.model.volume().value() == doctest::Approx(ring).epsilon(1e-3));
+  const auto made = mesh(closed.model);
+  CHECK(made.failures.empty());
+  CHECK(made.quality.min_dihedral_deg > 12);
+  CHECK(made.quality.elements < 5000); // none of them is as small as the slit was
+
+  const auto open = read(ring_with_slit(1e-3), 1e-4);
+  CHECK_FALSE(open.joined);
+  CHECK(open.model.volume().value() < closed.model.volume().value());
+}
+
+TEST_CASE("names of faces and solids outlast the joining") {
+  occt::attributed_shape input;
+  input.shape = ring_with_tip(3);
+  input.source = "ring";
+  input.names[input.shape].name = "ring";
+  const TopTools_IndexedMapOfShape faces = occt::sub_shapes(input.shape, TopAbs_FACE);
+  for (int f = 1; f <= faces.Extent(); ++f)
+    input.names[faces(f)].name = "side " + std::to_string(f);
+  const auto joined = occt_model_from(input, occt::wanted::solids, 0.0);
+  REQUIRE(joined.joined);
+  const auto& topology = joined.model.topology();
+  CHECK(topology.solids[0].name == "ring");
+  CHECK(std::none_of(topology.faces.begin(), topology.faces.end(),
+                     [](const auto& face) { return face.name.empty(); }));
+  CHECK(topology.faces.size() > static_cast<std::size_t>(faces.Extent()));
+}
+
+TEST_CASE("surfaces that pass through each other are not joined") {
+  for (const double height : {3.5, 4.5}) {
+    CAPTURE(height);
+    const auto crossing = read(ring_with_tip(height), 0.0);
+    CHECK_FALSE(crossing.joined);
+    CHECK_THROWS_AS(mesh(crossing.model), error);
+  }
+}
+
+TEST_CASE("sectors of a solid around an edge are beside each other, or in each other") {
+  using occt::sectors_are_apart;
+  const double pi = std::numbers::pi;
+  CHECK(sectors_are_apart({{0, 1}, {pi / 2, -1}, {-pi, 1}, {-pi / 2, -1}}));
+  CHECK(sectors_are_apart({{1, -1}, {2, 1}, {3, -1}, {-1, 1}}));
+  // Two planes that cross, the solid below both: between them it is there twice.
+  CHECK_FALSE(sectors_are_apart({{0, -1}, {0.5, -1}, {pi, 1}, {0.5 - pi, 1}}));
+  // A sector in another one.
+  CHECK_FALSE(sectors_are_apart({{-1, 1}, {-0.5, 1}, {0.5, -1}, {1, -1}}));
+  // Two cylinders that touch: their faces are tangent to each other, whatever order rounding puts them in.
+  for (const double off : {1e-9, 0.0, -1e-9}) {
+    CHECK(sectors_are_apart({{pi / 2, -1}, {pi / 2 + off, 1}, {-pi / 2, 1}, {-pi / 2 + off, -1}}));
+    CHECK(sectors_are_apart({{pi, -1}, {off - pi, 1}, {0, 1}, {off, -1}}));
+  }
+}
+
+TEST_CASE("what does not touch itself stays as it is") {
+  for (const double length : {0.0, 1e-3}) {
+    CAPTURE(length);
+    CHECK_FALSE(read(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), length).joined);
+    CHECK_FALSE(read(ring_with_tip(2.5), length).joined);
+  }
+}
