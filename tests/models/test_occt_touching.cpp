@@ -5,16 +5,11 @@
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "models/model_checks.hpp"
+#include "models/rings.hpp"
 
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakePrism.hxx>
 #include <TopoDS_Shape.hxx>
 #include <doctest/doctest.h>
-#include <gp_Pnt.hxx>
-#include <gp_Trsf.hxx>
-#include <gp_Vec.hxx>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,28 +20,10 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::ring_with_slit;
+using testing::ring_with_tip;
 
 namespace {
-
-/// The prism of height 1 over a polygon.
-TopoDS_Shape prism(const std::vector<vec2>& outline) {
-  BRepBuilderAPI_MakePolygon polygon;
-  for (const vec2 p : outline)
-    polygon.Add(gp_Pnt(p.x, p.y, 0));
-  polygon.Close();
-  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire(), true).Face(), gp_Vec(0, 0, 1)).Shape();
-}
-
-/// A bar that is bent to a ring, and ends in a point at `height`: its other end is at 3 to 4.
-TopoDS_Shape ring_with_tip(double height) {
-  return prism({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3}, {3, 3}, {3, 1}, {1, 1}, {0.5, height}, {0, 1}});
-}
-
-/// The same with a flat end, so that a slit is left.
-TopoDS_Shape ring_with_slit(double width) {
-  return prism(
-      {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3 - width}, {0, 3 - width}});
-}
 
 occt_read_result read(const TopoDS_Shape& shape, const std::optional<double>& join_within = {}) {
   occt::attributed_shape input;
