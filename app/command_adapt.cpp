@@ -76,6 +76,7 @@ io::loaded_mesh named(adaptable_mesh<D> made, const io::loaded_mesh& old) {
 struct chosen_model {
   std::string file_or_name; ///< empty: the boundary of the mesh
   std::string unit = "mm";
+  std::optional<double> join; ///< as when the mesh was made
   bool was_asked_for = false;
   std::string said; ///< of it, for the summary
   std::vector<std::string> warnings = {};
@@ -92,13 +93,13 @@ chosen_model model_for(const adapt_options& options) {
   if (options.model == "none") {
     chosen.said = "on the boundary of the mesh";
   } else if (!options.model.empty()) {
-    chosen = {options.model, options.unit, true, "on the model " + options.model};
+    chosen = {options.model, options.unit, {}, true, "on the model " + options.model};
   } else if (const auto recorded = model_of_run_beside(options.input)) {
     const std::string of_run = ", which the run that made " + options.input + " names";
     if (recorded->file.empty())
-      chosen = {recorded->name, "mm", false, "on the built-in model " + recorded->name + of_run};
+      chosen = {recorded->name, "mm", {}, false, "on the built-in model " + recorded->name + of_run};
     else if (recorded->is_as_it_was)
-      chosen = {recorded->file.string(), recorded->unit, false,
+      chosen = {recorded->file.string(), recorded->unit, recorded->joined, false,
                 "on the model " + recorded->file.string() + of_run};
     else
       chosen.warnings.push_back(recorded->file.string() + of_run +
@@ -185,7 +186,7 @@ private:
   adapted<D> adapted_mesh(const adaptable_mesh<D>& old, const std::vector<double>& at_points,
                           chosen_model& model) const {
     if (!model.file_or_name.empty()) {
-      auto boundary = model_of_mesh<D>(load_geometry(model.file_or_name, model.unit, D), old);
+      auto boundary = model_of_mesh<D>(load_geometry(model.file_or_name, model.unit, D, model.join), old);
       try {
         return mesh_boundary_again(std::move(boundary), old, at_points);
       } catch (const mesh_error& problem) {

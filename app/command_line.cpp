@@ -91,6 +91,9 @@ void add_model_options(CLI::App& command, model_options& options) {
                                       "edges (default: a quarter of the size)");
   command.add_flag("--keep-all", options.keep_all, "Mesh all edges and faces, however short and narrow")
       ->excludes(suppress);
+}
+
+void add_join_option(CLI::App& command, model_options& options) {
   command.add_option("--join", options.join,
                      "Faces nearer than this length to each other are made one there (default: where the "
                      "surfaces of a CAD model cross, up to a ten-thousandth of its diagonal)");
@@ -278,6 +281,7 @@ struct parser {
                            "dovetail mesh wing.step --sizing sizes.json --mesher hxt -j 2 --report wing.json",
                            "dovetail mesh plate.svg --dimension 2 -s 0.1 --format vtu,msh"});
     add_model_options(command, mesh.model);
+    add_join_option(command, mesh.model);
     add_run_options(command, mesh);
     command.add_option("--decomposition", mesh.decomposition,
                        "How subdomains come about, of a coarse mesh, by planes through the fine surface, or "
@@ -305,6 +309,7 @@ struct parser {
     auto& command = *app.add_subcommand("plan", "Predict elements, memory and time before any meshing");
     add_examples(command, {"dovetail plan wing.step -s 5"});
     add_model_options(command, plan.mesh.model);
+    add_join_option(command, plan.mesh.model);
     add_run_options(command, plan.mesh);
     add_order_option(command, plan.mesh);
     command.add_option("--report", plan.report, "JSON file for the figures");

@@ -218,6 +218,7 @@ private:
   model_source prepare() {
     const model_options& wanted = touching_.options();
     const stopwatch clock;
+    parameters_.undivided_elements = make_generate_options(options_).undivided_elements; // not of another try
     model_source source = load_model(wanted, D, executor_for_model());
     figures_.seconds.geometry += clock.seconds();
     if (wanted.elements || source.thin_walls) {
@@ -270,10 +271,13 @@ private:
   }
 
   void make(model_source& source, const std::filesystem::path& folder, const finished_run& finished) {
-    const auto volume = volume_aside(source);
+    std::unique_ptr<made_aside<std::optional<double>>> volume;
     generated<D> result = touching_.meshed(
         source, [&] { return prepare(); },
-        [&] { return suppression_.retried(source, [&] { return generate(source, folder); }); });
+        [&] {
+          volume = volume_aside(source);
+          return suppression_.retried(source, [&] { return generate(source, folder); });
+        });
     if constexpr (D == 3)
       if (source.volume && result.failures.empty() && parameters_.only.empty())
         compare_volume(result.mesh.skeleton, volume ? volume->wait().value_or(std::nullopt) : source.volume(),
@@ -290,7 +294,7 @@ private:
     write(result.mesh, folder, finished);
     finish();
     if (leads_ && !formats_.empty())
-      finished.record(figures_.files);
+      finished.record(figures_.files, touching_.options().join);
   }
 
   /// Each rank reads the model by itself.
@@ -489,7 +493,7 @@ private:
     for (const auto& name : names)
       files.push_back({name, std::filesystem::file_size(folder / name, missing), {}});
     if (leads_)
-      record.record(files);
+      record.record(files, touching_.options().join);
     try {
       figures_.files = read_back(folder, names, policies_.executor, parameters_.on_progress);
     } catch (const cancelled&) {

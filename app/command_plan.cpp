@@ -40,13 +40,15 @@ double predicted_skeleton_sides(double elements, int subdomains) {
 template <int D>
 int plan_run(const plan_options& options) {
   const policies_of<D> policies = make_policies_of<D>(options.mesh);
-  generate_options parameters = make_generate_options(options.mesh);
+  const generate_options given = make_generate_options(options.mesh);
+  generate_options parameters = given;
   touching_faces touching(options.mesh.model, D);
   suppression details(touching.options(), D);
   terminal_progress lines(stderr);
   lines.update("geometry", 0, 0);
   parameters.on_progress = lines.callbacks();
   const auto prepare = [&] {
+    parameters.undivided_elements = given.undivided_elements; // not of another try
     model_source source = load_model(touching.options(), D, policies.executor);
     resolve_walls(source, touching.options(), policies, parameters);
     scale_to_elements(source, touching.options(), policies, parameters);

@@ -2,6 +2,7 @@
 
 #include "output_formats.hpp"
 #include "rank_partitioner.hpp"
+#include "run_identity.hpp"
 
 #include "dovetail/core/output_file.hpp"
 
@@ -75,7 +76,7 @@ bool finished_run::is_there() const {
   });
 }
 
-void finished_run::record(const std::vector<written_file>& files) const {
+void finished_run::record(const std::vector<written_file>& files, const std::optional<double>& joined) const {
   output_file file(folder_ / record_name);
   file.text(started_with_);
   for (const written_file& each : files)
@@ -83,6 +84,8 @@ void finished_run::record(const std::vector<written_file>& files) const {
               " " + each.name + "\n");
   if (!input_.empty()) // behind the files: where it lies is no part of what the run is
     file.text("input " + input_ + "\n");
+  if (joined)
+    file.text("joined " + all_digits(*joined) + "\n");
   file.commit();
 }
 
@@ -112,6 +115,8 @@ std::optional<recorded_model> model_of_run_beside(const std::filesystem::path& m
       model.name = value;
     else if (what == "unit")
       model.unit = value;
+    else if (what == "joined" && value != "default")
+      model.joined = std::stod(value);
     else if (what == "file")
       checksum = value;
     else if (what == "input")

@@ -23,7 +23,8 @@ public:
   /// Whether this very run has come to its end, and its files are there in their size.
   bool is_there() const;
   /// Written when all files are; again with the checksums, when they are known.
-  void record(const std::vector<written_file>& files) const;
+  /// \param joined the length within which faces of the model were joined, if they were
+  void record(const std::vector<written_file>& files, const std::optional<double>& joined) const;
   /// Whatever run was finished here, its files will be replaced.
   void forget() const;
 
@@ -41,7 +42,8 @@ struct recorded_model {
   std::filesystem::path file; ///< empty for a built-in model
   std::string name;           ///< of the built-in model, or the file's
   std::string unit = "mm";
-  bool is_as_it_was = true; ///< the file is there, with the content that it had
+  std::optional<double> joined; ///< length within which faces were joined
+  bool is_as_it_was = true;     ///< the file is there, with the content that it had
 };
 
 /// By the record of the finished run beside a mesh file; nothing where there is none, or an older one that

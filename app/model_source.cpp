@@ -87,13 +87,22 @@ read_geometry cad_geometry(const std::filesystem::path& file, const model_option
   std::optional<spare_process> spare;
   if (std::filesystem::is_regular_file(file, unknown)) // a pipe can be read once
     spare.emplace();
-  const risky_step reading(file.string() + ": reading and healing with Open CASCADE",
-                           "the file is damaged or beyond it; export it again, best as STEP",
+  const risky_step reading(file.string() + (options.join
+                                                ? ": reading with Open CASCADE, and joining faces that touch,"
+                                                : ": reading and healing with Open CASCADE"),
+                           options.joined_for_crossing
+                               ? "its surfaces cross, separate them or let them share faces in the CAD system"
+                               : "the file is damaged or beyond it; export it again, best as STEP",
                            60 + 40 * megabytes); // it needs about one second per megabyte
   const auto unit = options.unit == "mm" ? occt::length_unit::millimetre : occt::length_unit::file;
   const auto entities = dimension == 2 ? occt::wanted::faces : occt::wanted::solids;
   auto read = read_occt_model(file, {.unit = unit, .entities = entities, .join_within = options.join});
-  if (read.joined && options.join_where_crossing)
+  if (options.join && !read.joined && !options.joined_for_crossing)
+    read.report.warnings.push_back(
+        "--join " + number_text(*options.join) +
+        " changes nothing: no faces are so near to each other without sharing what they "
+        "have in common, or they could not be joined");
+  if (read.joined && options.joined_for_crossing)
     read.report.warnings.push_back((*options.join > 0 ? "surfaces cross, so faces nearer than " +
                                                             number_text(*options.join, 3) + " to each other"
                                                       : "surfaces cross where they touch, so faces that do") +
@@ -303,11 +312,18 @@ std::optional<automatic_points> given_sizes::points(const any_geometry& model, b
   return automatic_points(model, options, divided_loop{run});
 }
 
+bool may_be_read_again(const std::string& file) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(file, unknown) && !is_drawing(file) &&
+         triangle_format_of(file).empty();
+}
+
 bool has_faces_to_join(const model_options& options, int dimension) {
   return geometry_of_file(options.input, options, dimension).joined;
 }
 
-any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension) {
+any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension,
+                           const std::optional<double>& join) {
   if (!is_there(file_or_name)) {
     if (is_builtin(file_or_name))
       return any_geometry(builtin_model(file_or_name).model);
@@ -316,6 +332,7 @@ any_geometry load_geometry(const std::string& file_or_name, const std::string& u
   model_options options;
   options.input = file_or_name;
   options.unit = unit;
+  options.join = join;
   return geometry_of_file(file_or_name, options, dimension).geometry;
 }
 
@@ -331,6 +348,10 @@ model_source load_model(const model_options& options, int dimension, const any_e
   if (options.join && (!(*options.join >= 0) || !std::isfinite(*options.join)))
     throw command_line_error("--join: " + number_text(*options.join) +
                              " is not a length; give a positive number or 0");
+  if (options.join && !options.input.empty() && is_there(options.input) && !may_be_read_again(options.input))
+    throw command_line_error("--join: " + options.input + " is no CAD file; its faces are joined already");
+  if (options.join && options.input.empty())
+    throw command_line_error("--join: a built-in model has no faces to join");
   const given_sizes sizes(options);
   model_source source =
       options.input.empty()

@@ -74,11 +74,15 @@ struct model_source {
 model_source load_model(const model_options& options, int dimension = 3,
                         const any_executor& run = parallel::serial{});
 
+/// Whether it is a CAD file, and no pipe.
+bool may_be_read_again(const std::string& file);
+
 /// Whether a CAD file has faces as near to each other as `options.join`, which is given.
 bool has_faces_to_join(const model_options& options, int dimension);
 
 /// The geometry alone of a file, or of the built-in model of that name; a file comes first. Throws the
 /// library's errors, and `input_error` when there is neither.
-any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension);
+any_geometry load_geometry(const std::string& file_or_name, const std::string& unit, int dimension,
+                           const std::optional<double>& join = {});
 
 } // namespace dovetail::app

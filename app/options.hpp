@@ -24,7 +24,8 @@ struct model_options {
   std::optional<double> suppress;   ///< length up to which details of the model are; none: by the sizes
   bool keep_all = false;            ///< nothing is a detail
   std::optional<double> join;       ///< faces as near as that to each other are joined
-  bool join_where_crossing = false; ///< faces are joined because surfaces cross, or may be
+  bool joined_for_crossing = false; ///< because surfaces crossed, and not because it was asked for
+  bool crossing_is_told = false;    ///< surfaces that cross end the attempt: no detail is to blame yet
 
   /// Sizes are found by the model: nothing is said of them, or only how.
   bool has_automatic_sizes() const {

@@ -20,15 +20,14 @@ constexpr double most_by_default = 600'000;
 constexpr double undivided_with_walls = 2.5e6;
 
 /// Elements of the model with sizes that do not see thin walls; nothing where it cannot be planned as it was
-/// drawn, which it may be without its details.
-/// Throws when surfaces cross that may be joined.
+/// drawn, which it may be without its details. That surfaces cross is thrown if it is to be told.
 std::optional<double> elements_without(const model_source& source, const policies_of<3>& policies,
-                                       generate_options options, bool may_join) {
+                                       generate_options options, bool crossing_is_told) {
   options.enlarged_above = 0;
   try {
     return plan_generation<3>(source.geometry, source.size, policies, options).predicted_elements;
   } catch (const blames_faces& problem) {
-    if (may_join && is_crossing(problem))
+    if (crossing_is_told && is_crossing(problem))
       throw;
     return {};
   }
@@ -43,7 +42,7 @@ void resolve_walls(model_source& source, const model_options& wanted, const poli
   const automatic_points points = *std::exchange(source.thin_walls, {});
   if (options.undivided_elements > 0)
     options.undivided_elements = undivided_with_walls;
-  const auto elements = elements_without(source, policies, options, wanted.join_where_crossing);
+  const auto elements = elements_without(source, policies, options, wanted.crossing_is_told);
   if (!elements) {
     source.summary.warnings.push_back("thin walls are meshed with flat elements: their sizes need a plan of "
                                       "the model as it was drawn, which "

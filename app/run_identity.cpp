@@ -15,15 +15,12 @@
 #include <utility>
 
 namespace dovetail::app {
-namespace {
 
 std::string all_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
 }
-
-} // namespace
 
 std::string values_of_field(const any_sizing& size, const box3& box) {
   constexpr std::array<double, 3> steps{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};

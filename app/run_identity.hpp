@@ -7,7 +7,12 @@
 
 #include "dovetail/parallel/spool.hpp"
 
+#include <string>
+
 namespace dovetail::app {
+
+/// A number so that it can be read back to the last bit.
+std::string all_digits(double value);
 
 /// A checksum of the field itself, at points of a lattice of irrational steps: whatever file or option it
 /// comes from.

@@ -28,14 +28,14 @@ public:
 
   /// Calls what meshes the source's geometry; when that blames faces, with these as they were drawn, and so
   /// on. What is thrown without a face to blame, or when all details are back, is thrown; so are surfaces
-  /// that cross where touching faces may be joined.
+  /// that cross where the options say so.
   template <class F>
   auto retried(model_source& source, const F& mesh_it) {
     while (true)
       try {
         return mesh_it();
       } catch (const blames_faces& problem) {
-        if ((is_crossing(problem) && options_.join_where_crossing) || !keep(source, problem.faces()))
+        if ((is_crossing(problem) && options_.crossing_is_told) || !keep(source, problem.faces()))
           throw;
       }
   }

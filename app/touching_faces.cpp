@@ -8,26 +8,31 @@
 namespace dovetail::app {
 
 touching_faces::touching_faces(const model_options& given, int dimension)
-    : options_(given), dimension_(dimension) {
-  options_.join_where_crossing = !given.join && !given.input.empty();
+    : options_(given), dimension_(dimension), may_join_(!given.join && may_be_read_again(given.input)) {
+  options_.crossing_is_told = may_join_;
 }
 
 bool touching_faces::next() {
-  constexpr std::array shares_of_diagonal{0.0, 1e-5, 2e-5, 5e-5, 1e-4};
-  if (!options_.join_where_crossing)
-    return false;
-  const double diagonal = load_geometry(options_.input, options_.unit, dimension_).bounds().diagonal();
-  while (tried_ < shares_of_diagonal.size()) {
-    options_.join = shares_of_diagonal[tried_++] * diagonal;
-    try {
-      if (has_faces_to_join(options_, dimension_))
-        return true;
-    } catch (const geometry_error&) { // what is joined so is none
+  // Shares of the diagonal within which faces are joined; nothing: the model as it was drawn.
+  constexpr std::array<std::optional<double>, 6> shares{0.0, std::nullopt, 1e-5, 2e-5, 5e-5, 1e-4};
+  while (may_join_ && tried_ < shares.size()) {
+    const std::optional<double> share = shares[tried_++];
+    options_.crossing_is_told = share && *share > 0;
+    options_.joined_for_crossing = share.has_value();
+    options_.join = share;
+    if (!share && !options_.keep_all)
+      return true;
+    if (!share)
+      continue;
+    if (*share > 0) {
+      if (diagonal_ == 0)
+        diagonal_ = load_geometry(options_.input, options_.unit, dimension_).bounds().diagonal();
+      *options_.join *= diagonal_;
     }
+    if (has_faces_to_join(options_, dimension_))
+      return true;
   }
-  options_.join = std::nullopt;
-  options_.join_where_crossing = false;
-  return true;
+  return false;
 }
 
 } // namespace dovetail::app

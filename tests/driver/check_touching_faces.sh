@@ -33,6 +33,9 @@ mesh touching.brep --workers 1 --subdomains 1
 mesh touching.brep --join 0
 [[ $hash == "$joined" ]] || fault "the mesh depends on who asks for the joining"
 warned "surfaces cross" && fault "a warning tells of what was asked for"
+"$driver" adapt "$sandbox/work/out" -s 0.5 -o "$sandbox/work/next.vtu" >"$sandbox/stdout" 2>"$sandbox/stderr" ||
+  fault "the mesh of a joined model cannot be adapted"
+grep -q "on the model .*touching.brep" "$sandbox/stdout" || fault "it is not adapted on its model"
 mesh touching.brep --subdomains 4
 mesh touching.brep --dimension 2 --subdomains 1
 expect_success plan "$inputs/touching.brep"
@@ -44,7 +47,18 @@ mesh slit.brep --join 1e-5
 mesh slit.brep --join 1e-3
 [[ $hash != "$open" ]] || fault "a slit narrower than the length stays"
 
-expect_error "crosses itself|cross" mesh "$inputs/crossing.brep" -s 0.4
+mesh pin.brep
+warned "surfaces cross, so faces nearer than [0-9.e-]+ to each other were made one there: see --join" ||
+  fault "no warning says that the gap was closed"
+
+expect_error "the surfaces of face [0-9]+ and face [0-9]+ cross, also when refined" mesh "$inputs/crossing.brep" -s 0.4
+mesh pin.brep --join 1e-3
+warned "changes nothing" && fault "a warning says that nothing was joined"
+mesh slit.brep --join 1e-6
+warned "--join 1e-06 changes nothing" || fault "no warning says that nothing was joined"
+write_cube >"$inputs/cube.off"
+expect_usage_error "--join: .*cube.off is no CAD file" mesh "$inputs/cube.off" --join 1
+expect_usage_error "--join: a built-in model has no faces to join" mesh --join 1
 expect_usage_error "--join: -1 is not a length; give a positive number or 0" mesh "$inputs/slit.brep" --join -1
 
 ((problems == 0)) || exit 1

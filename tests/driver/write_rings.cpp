@@ -13,6 +13,6 @@ int main(int, char** argv) {
     return BRepTools::Write(shape, (folder + "/" + name).c_str());
   };
   const bool ok = write(ring_with_tip(3), "touching.brep") && write(ring_with_slit(1e-4), "slit.brep") &&
-                  write(ring_with_tip(4.5), "crossing.brep");
+                  write(ring_through_itself(), "crossing.brep") && write(pin_in_hole(5e-5), "pin.brep");
   return ok ? 0 : 1;
 }

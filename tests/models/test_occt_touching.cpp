@@ -33,8 +33,8 @@ occt_read_result read(const TopoDS_Shape& shape, const std::optional<double>& jo
 }
 
 /// Meshes it in one piece.
-generated<3> mesh(const occt_model& model) {
-  return generate<3>(model, uniform_size(0.5), parameters<>{}.with_options({.subdomains = 1}));
+generated<3> mesh(const occt_model& model, double size = 0.5) {
+  return generate<3>(model, uniform_size(size), parameters<>{}.with_options({.subdomains = 1}));
 }
 
 /// How many faces pass each curve most often.
@@ -98,13 +98,32 @@ TEST_CASE("names of faces and solids outlast the joining") {
   CHECK(topology.faces.size() > static_cast<std::size_t>(faces.Extent()));
 }
 
+TEST_CASE("a gap between curved faces, where their triangles cross, is closed") {
+  const auto as_drawn = read(testing::pin_in_hole(5e-5));
+  CHECK_THROWS_AS(mesh(as_drawn.model, 0.4), intersection_error);
+  CHECK_FALSE(read(testing::pin_in_hole(5e-5), 0.0).joined);
+  const auto closed = read(testing::pin_in_hole(5e-5), 1e-4);
+  CHECK(closed.joined);
+  CHECK(closed.model.volume().value() == doctest::Approx(18));
+  const auto made = mesh(closed.model);
+  CHECK(made.failures.empty());
+  CHECK(made.quality.min_dihedral_deg > 12);
+}
+
 TEST_CASE("surfaces that pass through each other are not joined") {
-  for (const double height : {3.5, 4.5}) {
-    CAPTURE(height);
-    const auto crossing = read(ring_with_tip(height), 0.0);
+  for (const double length : {0.0, 1e-3}) {
+    CAPTURE(length);
+    const auto crossing = read(testing::ring_through_itself(), length);
     CHECK_FALSE(crossing.joined);
-    CHECK_THROWS_AS(mesh(crossing.model), error);
+    CHECK_THROWS_AS(mesh(crossing.model), intersection_error);
   }
+}
+
+TEST_CASE("a sheet as thin as the length stays") {
+  const double thin = 2e-4;
+  const auto fin =
+      testing::prism({{0, 0}, {1, 0}, {1, 1}, {0.5 + thin, 1}, {0.5 + thin, 2}, {0.5, 2}, {0.5, 1}, {0, 1}});
+  CHECK_FALSE(read(fin, 1e-3).joined);
 }
 
 TEST_CASE("sectors of a solid around an edge are beside each other, or in each other") {

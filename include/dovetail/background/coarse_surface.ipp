@@ -295,9 +295,10 @@ private:
                     .surface_of = {}};
   region_store store_{std::make_shared<entity_store>()}; ///< faces out of reach of what is refined stay
   meshed_regions meshed_;
-  std::vector<patch_mesh> meshes_;                                 ///< of the faces
-  std::vector<intervals> origins_;                                 ///< of the segments of each face
-  std::map<std::size_t, std::array<std::size_t, 2>> folds_before_; ///< of a face, in the last two rounds
+  std::vector<patch_mesh> meshes_; ///< of the faces
+  std::vector<intervals> origins_; ///< of the segments of each face
+  std::map<std::size_t, std::array<std::size_t, 2>>
+      folds_before_; ///< of a face, when it last failed, and before
 };
 
 DOVETAIL_INLINE coarse_surface_result coarse_surface_by(const any_geometry& model, const any_sizing& sizing,

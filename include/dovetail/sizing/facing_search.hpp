@@ -30,7 +30,7 @@ private:
   struct query {
     vec3 point;
     vec3 direction; ///< into what is looked through
-    double height;  ///< of the best so far
+    double height;  ///< the lowest so far
     double offset;  ///< of the best so far, along the plane
     double slack;
     const surface_sample* best;

@@ -85,7 +85,7 @@ DOVETAIL_INLINE void facing_search::consider(const end& e, query& q) const {
   const double offset = norm(away - along * q.direction);
   if (along <= 0 || offset > std::max(aside * along, q.slack) || !may_be_better(along, offset, q))
     return;
-  q.height = along;
+  q.height = std::min(q.height, along);
   q.offset = offset;
   q.best = &s;
 }

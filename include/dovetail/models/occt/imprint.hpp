@@ -55,21 +55,26 @@ inline std::vector<std::array<std::size_t, 2>> close_pairs(const brep& data,
   return pairs;
 }
 
-/// The general fuse of bodies at a fuzzy tolerance: every body keeps its extent, contacts become shared
-/// faces, overlaps of solids become solids of their own. Empty when OCCT fails; else its faults tell whether
-/// it is sound.
+/// Carries out the general fuse of shapes; false when OCCT fails.
+/// \param fuse a new one, which then tells what became of each shape
+/// \param shapes what is fused: a range of shapes
 /// \param fuzzy the tolerance within which shapes touch, in the units of the model
-inline std::optional<brep> general_fuse(attributed_shape& input, const std::vector<TopoDS_Shape>& bodies,
-                                        double fuzzy) {
-  BOPAlgo_Builder fuse;
-  for (const TopoDS_Shape& body : bodies)
-    fuse.AddArgument(body);
+template <class Shapes>
+bool perform_fuse(BOPAlgo_Builder& fuse, const Shapes& shapes, double fuzzy) {
+  for (const TopoDS_Shape& shape : shapes)
+    fuse.AddArgument(shape);
   fuse.SetNonDestructive(true);
   fuse.SetFuzzyValue(fuzzy);
   fuse.Perform();
-  if (fuse.HasErrors())
-    return std::nullopt;
-  inherit_attributes(input.names, input.shape, [&](const TopoDS_Shape& old) {
+  return !fuse.HasErrors();
+}
+
+/// Carries attributes over to what a fuse made of the faces and solids of a shape.
+/// \param names the attributes, of the shape and of what was made
+/// \param before the shape
+/// \param fuse the fuse, carried out
+inline void inherit_from_fuse(attribute_map& names, const TopoDS_Shape& before, BOPAlgo_Builder& fuse) {
+  inherit_attributes(names, before, [&](const TopoDS_Shape& old) {
     TopoDS_Compound images;
     const BRep_Builder builder;
     builder.MakeCompound(images);
@@ -77,6 +82,18 @@ inline std::optional<brep> general_fuse(attributed_shape& input, const std::vect
       builder.Add(images, image.Value());
     return images;
   });
+}
+
+/// The general fuse of bodies at a fuzzy tolerance: every body keeps its extent, contacts become shared
+/// faces, overlaps of solids become solids of their own. Empty when OCCT fails; else its faults tell whether
+/// it is sound.
+/// \param fuzzy the tolerance within which shapes touch, in the units of the model
+inline std::optional<brep> general_fuse(attributed_shape& input, const std::vector<TopoDS_Shape>& bodies,
+                                        double fuzzy) {
+  BOPAlgo_Builder fuse;
+  if (!perform_fuse(fuse, bodies, fuzzy))
+    return std::nullopt;
+  inherit_from_fuse(input.names, input.shape, fuse);
   input.shape = fuse.Shape();
   return brep_builder(input.shape, input.names).build();
 }

@@ -6,12 +6,13 @@
 #include "dovetail/models/occt/heal.hpp"
 
 #include <BOPAlgo_Builder.hxx>
-#include <TopTools_MapOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -25,39 +26,47 @@ struct passage_at_edge {
   int enters;   ///< 1 where a turn around the edge enters the solid there, -1 where it leaves it
 };
 
-/// The passages of each edge, by faces of one solid.
-inline std::vector<std::vector<passage_at_edge>> passages_of_edges(const brep& data, local_id solid) {
-  std::vector<std::vector<passage_at_edge>> passages(data.edges.size());
-  std::vector<std::array<vec3, 2>> axes(data.edges.size());
+/// The passages of each edge that faces of a solid pass more than twice, by edge and solid.
+inline std::map<std::array<local_id, 2>, std::vector<passage_at_edge>> repeated_passages(const brep& data) {
+  struct passage {
+    std::size_t face, coedge;
+    bool flipped; ///< the solid is in front of the face
+  };
+  std::map<std::array<local_id, 2>, std::vector<passage>> all;
   for (std::size_t f = 0; f < data.faces.size(); ++f) {
     const auto& face = data.topology.faces[f];
-    if (face.solids[0] != solid && face.solids[1] != solid)
+    for (std::size_t k = 0; k < face.coedges.size(); ++k)
+      for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+        if (const local_id c = face.coedges[k].curve;
+            face.solids[side] != no_id && !data.topology.curves[c].degenerate)
+          all[{c, face.solids[side]}].push_back({f, k, face.reversed != (side == 1)});
+  }
+  std::map<std::array<local_id, 2>, std::vector<passage_at_edge>> repeated;
+  for (const auto& [edge_and_solid, passages] : all) {
+    if (passages.size() <= 2)
       continue;
-    const bool flipped = face.reversed != (face.solids[0] != solid);
-    for (std::size_t k = 0; k < face.coedges.size(); ++k) {
-      const auto c = static_cast<std::size_t>(face.coedges[k].curve);
-      if (data.topology.curves[c].degenerate)
-        continue;
-      const auto& t = data.topology.curves[c].t;
-      const double middle = 0.5 * (t[0] + t[1]);
-      gp_Pnt point;
-      gp_Vec derivative;
-      data.curves[c].D1(middle, point, derivative);
-      const vec3 along = normalized(to_vec3(derivative.XYZ()));
+    const auto c = static_cast<std::size_t>(edge_and_solid[0]);
+    const auto& t = data.topology.curves[c].t;
+    const double middle = 0.5 * (t[0] + t[1]);
+    gp_Pnt point;
+    gp_Vec derivative;
+    data.curves[c].D1(middle, point, derivative);
+    const vec3 along = normalized(to_vec3(derivative.XYZ()));
+    vec3 first{}, second{}; // axes of the angles
+    for (const auto& [f, k, flipped] : passages) {
       const surface_frame frame = data.surfaces[f].frame(data.coedges[f][k].at(middle, data.surfaces[f]));
       const vec3 normal = normalized(cross(frame.du, frame.dv));
-      const vec3 away = (face.coedges[k].reversed ? -1.0 : 1.0) * cross(normal, along);
-      auto& [first, second] = axes[c];
-      if (passages[c].empty()) {
+      const vec3 away = (data.topology.faces[f].coedges[k].reversed ? -1.0 : 1.0) * cross(normal, along);
+      if (norm(first) == 0) {
         first = normalized(away);
         second = cross(along, first);
       }
       const vec3 outwards = (flipped ? -1.0 : 1.0) * normal;
-      passages[c].push_back(
+      repeated[edge_and_solid].push_back(
           {std::atan2(dot(away, second), dot(away, first)), dot(outwards, cross(along, away)) > 0 ? -1 : 1});
     }
   }
-  return passages;
+  return repeated;
 }
 
 /// Whether the sectors of a solid around one of its edges lie beside each other. Where its surface passes
@@ -90,37 +99,61 @@ inline bool sectors_are_apart(std::vector<passage_at_edge> passages) {
 
 /// Whether no solid passes through itself where it touches itself.
 inline bool only_touches_itself(const brep& data) {
-  for (std::size_t s = 0; s < data.solids.size(); ++s)
-    for (const auto& passages : passages_of_edges(data, static_cast<local_id>(s)))
-      if (passages.size() > 2 && !sectors_are_apart(passages))
-        return false;
-  return true;
+  const auto repeated = repeated_passages(data);
+  return std::all_of(repeated.begin(), repeated.end(),
+                     [](const auto& passages) { return sectors_are_apart(passages.second); });
+}
+
+/// Whether there is material between two faces of a solid that are nearer to each other than a tolerance.
+/// \param outwards a face of a solid, as the solid has it
+/// \param other the other face
+inline bool is_material_between(const TopoDS_Face& outwards, const TopoDS_Face& other) {
+  const face_surface surface(outwards), facing(other);
+  const auto& box = surface.box();
+  const vec2 middle{0.5 * (box[0][0] + box[0][1]), 0.5 * (box[1][0] + box[1][1])};
+  const surface_frame frame = surface.frame(middle);
+  const auto& seed = facing.box();
+  const vec2 foot =
+      facing.project(frame.point, {0.5 * (seed[0][0] + seed[0][1]), 0.5 * (seed[1][0] + seed[1][1])});
+  const vec3 normal = (outwards.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0) * cross(frame.du, frame.dv);
+  return dot(facing.point(foot) - frame.point, normal) < 0;
 }
 
 /// The faces of a body as the fuse made them. Those that are both sides of one and the same solid bound
-/// nothing any more.
+/// nothing any more. Nothing where there is material between those, so that they are the sides of a sheet, or
+/// where they look the same way.
 /// \param body a solid or a face
 /// \param fuse the general fuse of all faces, each as FORWARD
-inline TopoDS_Shape body_of_images(const TopoDS_Shape& body, BOPAlgo_Builder& fuse) {
-  std::vector<TopoDS_Shape> images;
+inline std::optional<TopoDS_Shape> body_of_images(const TopoDS_Shape& body, BOPAlgo_Builder& fuse) {
+  struct image {
+    TopoDS_Shape made;
+    TopoDS_Face of;
+  };
+  std::vector<image> images;
   for (TopExp_Explorer faces(body, TopAbs_FACE); faces.More(); faces.Next()) {
-    const TopoDS_Shape& face = faces.Current();
+    const TopoDS_Face& face = TopoDS::Face(faces.Current());
     const TopTools_ListOfShape& made = fuse.Modified(face);
-    for (const TopoDS_Shape& image : made) // as if the face were FORWARD
-      images.push_back(face.Orientation() == TopAbs_REVERSED ? image.Reversed() : image);
+    for (const TopoDS_Shape& one : made) // as if the face were FORWARD
+      images.push_back({face.Orientation() == TopAbs_REVERSED ? one.Reversed() : one, face});
     if (made.IsEmpty() && !fuse.IsDeleted(face))
-      images.push_back(face);
+      images.push_back({face, face});
   }
-  TopTools_MapOfShape once, twice;
-  for (const TopoDS_Shape& image : images)
-    if (!once.Add(image))
-      twice.Add(image);
+  TopTools_IndexedMapOfShape different;
+  std::vector<std::vector<image>> alike;
+  for (const image& one : images) {
+    const auto k = static_cast<std::size_t>(different.Add(one.made));
+    alike.resize(std::max(alike.size(), k));
+    alike[k - 1].push_back(one);
+  }
   const BRep_Builder builder;
   TopoDS_Shell shell;
   builder.MakeShell(shell);
-  for (const TopoDS_Shape& image : images)
-    if (!twice.Contains(image))
-      builder.Add(shell, image);
+  for (const auto& sides : alike)
+    if (sides.size() == 1)
+      builder.Add(shell, sides[0].made);
+    else if (sides.size() > 2 || sides[0].made.Orientation() == sides[1].made.Orientation() ||
+             is_material_between(sides[0].of, sides[1].of))
+      return std::nullopt;
   if (body.ShapeType() == TopAbs_FACE)
     return shell;
   TopoDS_Solid solid;
@@ -129,44 +162,35 @@ inline TopoDS_Shape body_of_images(const TopoDS_Shape& body, BOPAlgo_Builder& fu
   return solid;
 }
 
-/// The general fuse of all faces at a tolerance, and the bodies made of them again. Empty when OCCT fails.
+/// The general fuse of all faces at a tolerance, and the bodies made of them again. Nothing when OCCT fails,
+/// or a sheet would vanish.
 inline std::optional<attributed_shape> fuse_of_faces(const attributed_shape& input, const brep& data,
                                                      double tolerance) {
   BOPAlgo_Builder fuse;
-  for (const TopoDS_Face& face : data.faces)
-    fuse.AddArgument(face);
-  fuse.SetNonDestructive(true);
-  fuse.SetFuzzyValue(tolerance);
-  fuse.Perform();
-  if (fuse.HasErrors())
+  if (!perform_fuse(fuse, data.faces, tolerance))
     return std::nullopt;
   const BRep_Builder builder;
   TopoDS_Compound all;
   builder.MakeCompound(all);
   attributed_shape result = input;
   for (const TopoDS_Shape& body : bodies_of(data)) {
-    const TopoDS_Shape made = body_of_images(body, fuse);
-    result.names.inherit(made, body);
-    builder.Add(all, made);
+    const auto made = body_of_images(body, fuse);
+    if (!made)
+      return std::nullopt;
+    result.names.inherit(*made, body);
+    builder.Add(all, *made);
   }
-  inherit_attributes(result.names, input.shape, [&](const TopoDS_Shape& old) {
-    TopoDS_Compound images;
-    builder.MakeCompound(images);
-    if (old.ShapeType() == TopAbs_FACE)
-      for (TopTools_ListIteratorOfListOfShape image(fuse.Modified(old)); image.More(); image.Next())
-        builder.Add(images, image.Value());
-    return images;
-  });
+  inherit_from_fuse(result.names, input.shape, fuse);
   result.shape = all;
   return result;
 }
 
 /// Makes faces share what they have in common, where they touch or are within `tolerance` of each other; both
 /// sides of a slit as narrow as that vanish. False, and nothing is changed, where there is nothing of the
-/// kind, or what would come out is not sound: a solid is gone or open, or passes through itself.
-/// Complexity: that of OpenCASCADE's general fuse of all faces, a few milliseconds for each.
-/// \param tolerance a length; with 0 faces have to touch within the tolerances of the file
-/// \param made is told of repairs of slivers that the tolerance leaves
+/// kind, or what would come out is not sound: a solid is gone or open, or passes through itself, or a sheet
+/// as thin as the tolerance would vanish. Complexity: that of OpenCASCADE's general fuse of all faces, a few
+/// milliseconds for each. \param tolerance a length; with 0 faces have to touch within the tolerances of the
+/// file \param made is told of repairs of slivers that the tolerance leaves
 inline bool join_touching_faces(attributed_shape& input, brep& data, report& made, wanted what,
                                 double tolerance) {
   try {
@@ -177,8 +201,8 @@ inline bool join_touching_faces(attributed_shape& input, brep& data, report& mad
     report repairs;
     if (!found.faults.empty() && !repair_faults(*joined, found, repairs, what))
       return false;
-    if (found.solids.size() != data.solids.size() || entity_counts(found) == entity_counts(data) ||
-        !only_touches_itself(found))
+    if (found.solids.size() != data.solids.size() || found.crossing.size() > data.crossing.size() ||
+        entity_counts(found) == entity_counts(data) || !only_touches_itself(found))
       return false;
     data = std::move(found);
     input = *std::move(joined);
