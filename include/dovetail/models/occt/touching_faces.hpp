@@ -201,8 +201,8 @@ inline bool join_touching_faces(attributed_shape& input, brep& data, report& mad
     report repairs;
     if (!found.faults.empty() && !repair_faults(*joined, found, repairs, what))
       return false;
-    if (found.solids.size() != data.solids.size() || found.crossing.size() > data.crossing.size() ||
-        entity_counts(found) == entity_counts(data) || !only_touches_itself(found))
+    if (found.solids.size() != data.solids.size() || entity_counts(found) == entity_counts(data) ||
+        !only_touches_itself(found))
       return false;
     data = std::move(found);
     input = *std::move(joined);
