@@ -6,6 +6,7 @@
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
@@ -13,13 +14,14 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <Bnd_Box.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 
-#include <cstddef>
 #include <vector>
 
 namespace dovetail::testing {
@@ -38,31 +40,21 @@ inline TopoDS_Shape ring_with_tip(double height) {
   return prism({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3}, {3, 3}, {3, 1}, {1, 1}, {0.5, height}, {0, 1}});
 }
 
-/// The same, and it goes through its other end; the lids are of two parts, neither of which crosses itself.
+/// A ring with a gap; from one of its ends a thorn goes through the other one.
 inline TopoDS_Shape ring_through_itself() {
-  const std::vector<gp_Pnt> outline{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0},     {0, 3, 0},
-                                    {3, 3, 0}, {3, 1, 0}, {1, 1, 0}, {0.5, 3.5, 0}, {0, 1, 0}};
+  const TopoDS_Shape arm = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(3, 1, 1).Shape(),
+                                            BRepPrimAPI_MakeBox(gp_Pnt(0.2, 0.5, 0.3), 0.4, 4, 0.4).Shape())
+                               .Shape();
+  const TopoDS_Shape rest = prism({{3, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3}, {3, 3}, {3, 1}});
   BRepBuilderAPI_Sewing sewing;
-  const auto add = [&](const std::vector<gp_Pnt>& corners) {
-    BRepBuilderAPI_MakePolygon polygon;
-    for (const gp_Pnt& p : corners)
-      polygon.Add(p);
-    polygon.Close();
-    sewing.Add(BRepBuilderAPI_MakeFace(polygon.Wire(), true).Face());
-  };
-  const auto at = [&](std::size_t k, double z) {
-    const gp_Pnt& p = outline[k % outline.size()];
-    return gp_Pnt(p.X(), p.Y(), z);
-  };
-  for (std::size_t k = 0; k < outline.size(); ++k)
-    add({at(k, 0), at(k + 1, 0), at(k + 1, 1), at(k, 1)});
-  for (const double z : {0.0, 1.0})
-    for (const std::vector<std::size_t>& part :
-         {std::vector<std::size_t>{1, 2, 3, 4, 5, 6}, std::vector<std::size_t>{0, 1, 6, 7, 8, 9}}) {
-      std::vector<gp_Pnt> corners;
-      for (const std::size_t k : part)
-        corners.push_back(at(k, z));
-      add(corners);
+  for (const TopoDS_Shape& part : {arm, rest})
+    for (TopExp_Explorer faces(part, TopAbs_FACE); faces.More(); faces.Next()) {
+      Bnd_Box box;
+      BRepBndLib::Add(faces.Current(), box);
+      const bool is_between =
+          box.CornerMin().X() > 2.9 && box.CornerMax().X() < 3.1 && box.CornerMax().Y() < 1.1;
+      if (!is_between)
+        sewing.Add(faces.Current());
     }
   sewing.Perform();
   return BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape())).Solid();
