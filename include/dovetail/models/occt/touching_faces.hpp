@@ -30,7 +30,7 @@ struct passage_at_edge {
 inline std::map<std::array<local_id, 2>, std::vector<passage_at_edge>> repeated_passages(const brep& data) {
   struct passage {
     std::size_t face, coedge;
-    bool flipped; ///< the solid is in front of the face
+    bool flipped; ///< the normal out of the solid is opposite to that of the surface
   };
   std::map<std::array<local_id, 2>, std::vector<passage>> all;
   for (std::size_t f = 0; f < data.faces.size(); ++f) {
