@@ -115,8 +115,8 @@ std::optional<recorded_model> model_of_run_beside(const std::filesystem::path& m
       model.name = value;
     else if (what == "unit")
       model.unit = value;
-    else if (what == "joined" && value != "default")
-      model.joined = std::stod(value);
+    else if (double length = 0; what == "joined" && std::istringstream(value) >> length) // or "default"
+      model.joined = length;
     else if (what == "file")
       checksum = value;
     else if (what == "input")

@@ -6,6 +6,7 @@
 #include "dovetail/models/occt/heal.hpp"
 
 #include <BOPAlgo_Builder.hxx>
+#include <Precision.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 
 #include <algorithm>
@@ -104,19 +105,27 @@ inline bool only_touches_itself(const brep& data) {
                      [](const auto& passages) { return sectors_are_apart(passages.second); });
 }
 
-/// Whether there is material between two faces of a solid that are nearer to each other than a tolerance.
-/// \param outwards a face of a solid, as the solid has it
-/// \param other the other face
-inline bool is_material_between(const TopoDS_Face& outwards, const TopoDS_Face& other) {
-  const face_surface surface(outwards), facing(other);
+/// The point of a face's surface nearest another one, and the normal that points out of the solid there.
+inline std::array<vec3, 2> foot_and_normal(const TopoDS_Face& face, vec3 point) {
+  const face_surface surface(face);
   const auto& box = surface.box();
-  const vec2 middle{0.5 * (box[0][0] + box[0][1]), 0.5 * (box[1][0] + box[1][1])};
-  const surface_frame frame = surface.frame(middle);
-  const auto& seed = facing.box();
-  const vec2 foot =
-      facing.project(frame.point, {0.5 * (seed[0][0] + seed[0][1]), 0.5 * (seed[1][0] + seed[1][1])});
-  const vec3 normal = (outwards.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0) * cross(frame.du, frame.dv);
-  return dot(facing.point(foot) - frame.point, normal) < 0;
+  const vec2 seed{0.5 * (box[0][0] + box[0][1]), 0.5 * (box[1][0] + box[1][1])};
+  const surface_frame frame = surface.frame(surface.project(point, seed));
+  return {frame.point,
+          (face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0) * normalized(cross(frame.du, frame.dv))};
+}
+
+/// Whether there is material between two faces of a solid where a fuse made them one. Faces that touch within
+/// the kernel's own tolerance have nothing between them.
+/// \param image what the fuse made of a part of each
+/// \param a a face of the solid, with the orientation that it has there
+/// \param b the other face
+inline bool is_material_between(const TopoDS_Face& image, const TopoDS_Face& a, const TopoDS_Face& b) {
+  const face_surface surface(image);
+  const auto& box = surface.box();
+  const vec3 middle = surface.point({0.5 * (box[0][0] + box[0][1]), 0.5 * (box[1][0] + box[1][1])});
+  const auto [at_a, outwards] = foot_and_normal(a, middle);
+  return dot(foot_and_normal(b, middle)[0] - at_a, outwards) < -Precision::Confusion();
 }
 
 /// The faces of a body as the fuse made them. Those that are both sides of one and the same solid bound
@@ -152,7 +161,7 @@ inline std::optional<TopoDS_Shape> body_of_images(const TopoDS_Shape& body, BOPA
     if (sides.size() == 1)
       builder.Add(shell, sides[0].made);
     else if (sides.size() > 2 || sides[0].made.Orientation() == sides[1].made.Orientation() ||
-             is_material_between(sides[0].of, sides[1].of))
+             is_material_between(TopoDS::Face(sides[0].made), sides[0].of, sides[1].of))
       return std::nullopt;
   if (body.ShapeType() == TopAbs_FACE)
     return shell;
@@ -188,9 +197,13 @@ inline std::optional<attributed_shape> fuse_of_faces(const attributed_shape& inp
 /// Makes faces share what they have in common, where they touch or are within `tolerance` of each other; both
 /// sides of a slit as narrow as that vanish. False, and nothing is changed, where there is nothing of the
 /// kind, or what would come out is not sound: a solid is gone or open, or passes through itself, or a sheet
-/// as thin as the tolerance would vanish. Complexity: that of OpenCASCADE's general fuse of all faces, a few
-/// milliseconds for each. \param tolerance a length; with 0 faces have to touch within the tolerances of the
-/// file \param made is told of repairs of slivers that the tolerance leaves
+/// as thin as the tolerance would vanish.
+/// Complexity: that of OpenCASCADE's general fuse of all faces, a few milliseconds for each.
+/// \param input replaced by what the result is made of
+/// \param data replaced by the result
+/// \param made is told of repairs of slivers that the tolerance leaves
+/// \param what solids alone, or faces beside them
+/// \param tolerance a length; with 0 faces have to touch within the tolerances of the file
 inline bool join_touching_faces(attributed_shape& input, brep& data, report& made, wanted what,
                                 double tolerance) {
   try {
