@@ -38,8 +38,10 @@ void check_from_mesh_3(const TopoDS_Shape& shape, double h, double volume) {
   const auto result = generate_from_background<3>(model, std::move(background), given);
   CHECK(result.failures.empty());
   CHECK(result.mesh.counts.size() == 3);
+  // part check
   const auto faults = io::check_distributed(result.mesh);
   CHECK_MESSAGE(faults.valid(), faults.text());
+  // end
 }
 
 } // namespace

@@ -297,10 +297,12 @@ TEST_CASE("user lambdas are fields, and all fields combine") {
   const auto model = make(implicit::sphere{}, 1.3);
   const auto wave = [](vec3 p) { return 0.2 + 0.1 * std::sin(p.x); };
   static_assert(sizing_field<decltype(wave)>);
-  const auto automatic = automatic_size(model, {.range = {.largest = 0.5}});
-  const minimum_of both(automatic, wave);
+  // part limited
+  const auto automatic = automatic_size(model, {.range = {.largest = 0.5}}); // by curvature and walls
+  const minimum_of both(automatic, wave);                                    // of any fields
   const bounded limited(scaled(both, 2), 0.1, 0.45);
-  const graded_size smooth(limited, model.bounds(), {.slope = 0.2});
+  const graded_size smooth(limited, model.bounds(), {.slope = 0.2}); // growing by 0.2 per length at most
+  // end
   for (const vec3 p : {vec3{}, vec3{1, 0, 0}, vec3{0, 0.5, 0.5}}) {
     CHECK(both(p) == std::min(automatic(p), wave(p)));
     CHECK(limited(p) == std::clamp(2 * both(p), 0.1, 0.45));
