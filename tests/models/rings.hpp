@@ -69,6 +69,37 @@ inline TopoDS_Shape pin_in_hole(double clearance) {
   return BRepAlgoAPI_Fuse(block, BRepPrimAPI_MakeCylinder(axis, 1 - clearance, 1).Shape()).Shape();
 }
 
+/// A block with a bar whose upper side is so far below the block's: the opening in the block's face that the
+/// bar stands in reaches its outer boundary, or nearly does. With edges of their own both.
+inline TopoDS_Shape block_with_flush_bar(double below) {
+  const auto wire = [](const std::vector<vec3>& corners) {
+    BRepBuilderAPI_MakePolygon polygon;
+    for (const vec3 p : corners)
+      polygon.Add(gp_Pnt(p.x, p.y, p.z));
+    polygon.Close();
+    return polygon.Wire();
+  };
+  const double top = 1 - below;
+  BRepBuilderAPI_Sewing sewing(1e-9, true, true, false); // nothing is cut
+  BRepBuilderAPI_MakeFace front(wire({{0, 3, 0}, {0, 3, 1}, {3, 3, 1}, {3, 3, 0}}), true);
+  front.Add(wire({{1, 3, 0.4}, {2, 3, 0.4}, {2, 3, top}, {1, 3, top}}));
+  sewing.Add(front.Face());
+  for (const std::vector<vec3>& corners :
+       std::vector<std::vector<vec3>>{{{0, 0, 0}, {0, 3, 0}, {3, 3, 0}, {3, 0, 0}}, // of the block
+                                      {{0, 0, 1}, {3, 0, 1}, {3, 3, 1}, {0, 3, 1}},
+                                      {{0, 0, 0}, {3, 0, 0}, {3, 0, 1}, {0, 0, 1}},
+                                      {{0, 0, 0}, {0, 0, 1}, {0, 3, 1}, {0, 3, 0}},
+                                      {{3, 0, 0}, {3, 3, 0}, {3, 3, 1}, {3, 0, 1}},
+                                      {{1, 3, 0.4}, {1, 5, 0.4}, {2, 5, 0.4}, {2, 3, 0.4}}, // of the bar
+                                      {{1, 3, top}, {2, 3, top}, {2, 5, top}, {1, 5, top}},
+                                      {{1, 3, 0.4}, {1, 3, top}, {1, 5, top}, {1, 5, 0.4}},
+                                      {{2, 3, 0.4}, {2, 5, 0.4}, {2, 5, top}, {2, 3, top}},
+                                      {{1, 5, 0.4}, {1, 5, top}, {2, 5, top}, {2, 5, 0.4}}})
+    sewing.Add(BRepBuilderAPI_MakeFace(wire(corners), true).Face());
+  sewing.Perform();
+  return BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape())).Solid();
+}
+
 /// A ring with a flat end, so that a slit is left.
 inline TopoDS_Shape ring_with_slit(double width) {
   return prism(

@@ -149,3 +149,49 @@ TEST_CASE("what does not touch itself stays as it is") {
     CHECK_FALSE(read(ring_with_tip(2.5), length).joined);
   }
 }
+
+TEST_CASE("edges of a face that lie on each other are made one, by themselves") {
+  const auto most_loops = [](const occt_model& model) {
+    std::size_t most = 0;
+    for (const auto& face : model.topology().faces)
+      most = std::max(most, face.loops.size());
+    return most;
+  };
+  for (const double below : {1e-8, 1e-7, 1e-6}) {
+    CAPTURE(below);
+    const auto joined = read(testing::block_with_flush_bar(below));
+    CHECK_FALSE(joined.joined); // nobody has asked for it
+    CHECK(joined.model.topology().faces.size() == 11);
+    CHECK(most_loops(joined.model) == 1);
+    CHECK(most_passages(joined.model.topology()) == 2);
+    REQUIRE(joined.report.warnings.size() == 1);
+    CHECK(joined.report.warnings[0].starts_with("edges that lie on each other"));
+    CHECK(joined.model.volume().value() == doctest::Approx(9 + 2 * 0.6).epsilon(1e-5));
+    const auto made = mesh(joined.model);
+    CHECK(made.failures.empty());
+    CHECK(made.quality.min_dihedral_deg > 12);
+  }
+  const auto apart = read(testing::block_with_flush_bar(0.01));
+  CHECK(most_loops(apart.model) == 2);
+  CHECK(apart.report.warnings.empty());
+}
+
+TEST_CASE("edges lie on each other over more than a point, or they do not") {
+  const auto overlaps = [](const TopoDS_Shape& shape) {
+    return occt::face_with_overlapping_edges(read(shape).model.data(), 1e-6).has_value();
+  };
+  CHECK_FALSE(overlaps(BRepPrimAPI_MakeBox(1, 1, 1).Shape()));
+  CHECK_FALSE(overlaps(BRepPrimAPI_MakeCylinder(1, 2).Shape())); // a seam
+  CHECK_FALSE(overlaps(testing::pin_in_hole(0.1)));
+  CHECK_FALSE(overlaps(testing::block_with_flush_bar(1e-3)));
+  // The corner of an opening touches the outer boundary: a point.
+  const TopoDS_Shape bar =
+      BRepPrimAPI_MakePrism(
+          BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakePolygon(gp_Pnt(1, 1, -1), gp_Pnt(2, 0, -1),
+                                                             gp_Pnt(3, 1, -1), gp_Pnt(2, 2, -1), true)
+                                      .Wire())
+              .Face(),
+          gp_Vec(0, 0, 3))
+          .Shape();
+  CHECK_FALSE(overlaps(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(4, 4, 1).Shape(), bar).Shape()));
+}

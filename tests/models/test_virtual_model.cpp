@@ -1,5 +1,7 @@
 /// Details far smaller than the size: what is given up, what stays, and that what is left is a model.
 #include "dovetail/models/occt_model.hpp"
+#include "dovetail/models/virtual/block_vector.hpp"
+#include "dovetail/models/virtual_model.hpp"
 #include "dovetail/sizing/kept_details.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "models/discrete_shapes.hpp"
@@ -8,10 +10,14 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepFilletAPI_MakeChamfer.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRep_Builder.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -20,10 +26,13 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <doctest/doctest.h>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 using namespace dovetail;
@@ -280,6 +289,63 @@ TEST_CASE("what is large enough stays, and so does everything at no share of the
     CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.share_of_size = share}), sizing_error);
   CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.least_angle_deg = -1}), sizing_error);
   CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.least_corner_deg = -1}), sizing_error);
+}
+
+namespace {
+
+/// A wall that bends outwards, with a flat face between two round ones, so wide: where they meet the surface
+/// turns back on itself.
+TopoDS_Shape wall_with_fold(double width) {
+  const auto line = [](gp_Pnt a, gp_Pnt b) { return BRepBuilderAPI_MakeEdge(a, b).Edge(); };
+  const auto arc = [](gp_Pnt centre, gp_Pnt from, gp_Pnt to, bool turns_left) {
+    const gp_Circ circle(gp_Ax2(centre, gp_Dir(0, 0, turns_left ? 1 : -1)), 1);
+    return BRepBuilderAPI_MakeEdge(circle, from, to).Edge();
+  };
+  const double foot = 1 - width;
+  BRepBuilderAPI_MakeWire wire;
+  wire.Add(line({0, 0, 0}, {3, 0, 0}));
+  wire.Add(arc({3, 1, 0}, {3, 0, 0}, {4, 1, 0}, true));
+  wire.Add(line({4, 1, 0}, {4, foot, 0}));
+  wire.Add(arc({5, foot, 0}, {4, foot, 0}, {5, foot + 1, 0}, false));
+  wire.Add(line({5, foot + 1, 0}, {5, 4, 0}));
+  wire.Add(line({5, 4, 0}, {0, 4, 0}));
+  wire.Add(line({0, 4, 0}, {0, 0, 0}));
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, 1)).Shape();
+}
+
+} // namespace
+
+TEST_CASE("a face along which the surface turns back on itself is a detail up to the size itself") {
+  const occt_model given = model_of(wall_with_fold(0.1));
+  const virtual_model made(given, uniform_size(0.3));
+  CHECK(virtual_checks(made, given, 0.3).faults() == "");
+  CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+  CHECK(made.suppressed().front().length == doctest::Approx(0.1));
+  CHECK(virtual_model(given, uniform_size(0.3), {.share_of_folded = 0.25}).suppressed().empty());
+  CHECK(virtual_model(given, uniform_size(0.09)).suppressed().empty());
+  // A face as wide between two that go on is none.
+  CHECK(virtual_model(chamfered_cube(0.1, 0.1).model(), uniform_size(0.3)).suppressed().empty());
+  CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.share_of_folded = -1}), sizing_error);
+}
+
+TEST_CASE("copies of a sequence in blocks share what is the same in both") {
+  std::vector<int> items(100);
+  std::iota(items.begin(), items.end(), 0);
+  virtual_topology::block_vector<int> first(items);
+  auto second = first;
+  second.change(40) = -1;
+  second.push_back(100);
+  first.push_back(7);
+  CHECK(first.size() == 101);
+  CHECK(second.size() == 101);
+  for (std::size_t i = 0; i < 100; ++i) {
+    CHECK(first[i] == static_cast<int>(i));
+    CHECK(second[i] == (i == 40 ? -1 : static_cast<int>(i)));
+    const bool shares = &first[i] == &second[i];
+    CHECK(shares == (i < 32 || (i >= 64 && i < 96)));
+  }
+  CHECK(first.back() == 7);
+  CHECK(second.back() == 100);
 }
 
 TEST_CASE("the rim of a plate stays, however thin, and so does a wedge") {

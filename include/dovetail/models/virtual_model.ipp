@@ -88,9 +88,13 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
   sizing::checked_length(options.share_of_size, "the share of the size that details have");
   sizing::checked_length(options.least_angle_deg, "the least angle beside details");
   sizing::checked_length(options.least_corner_deg, "the least angle of corners beside details");
-  const virtual_topology::limits allowed{
-      [&size, share = options.share_of_size](vec3 p) { return share * size(p); }, options.least_angle_deg,
-      options.least_corner_deg, options.kept_faces};
+  sizing::checked_length(options.share_of_folded, "the share of the size that folded faces have");
+  const auto up_to = [&](double share) {
+    return virtual_topology::limits{[&size, share](vec3 p) { return share * size(p); },
+                                    options.least_angle_deg, options.least_corner_deg, options.kept_faces};
+  };
+  const virtual_topology::limits allowed = up_to(options.share_of_size);
+  const virtual_topology::limits of_folded = up_to(std::max(options.share_of_size, options.share_of_folded));
   auto made = std::make_shared<data>();
   virtual_topology::editable_topology topology(&model_);
   std::size_t found = 1;
@@ -98,6 +102,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
     found = collapse_short_edges(topology, allowed, made->suppressed);
     found += collapse_tiny_faces(topology, allowed, made->suppressed);
     found += collapse_narrow_faces(topology, allowed, made->suppressed);
+    found += collapse_folded_faces(topology, of_folded, made->suppressed);
     found += collapse_narrow_ends(topology, allowed, made->suppressed);
   }
   made->topology = topology.topology();

@@ -90,6 +90,8 @@ struct loop_manner {
   bool with_projection = true; ///< of parameter curves that stray from their 3D curves
   /// Small edges without a 3D curve whose images are longer than this share of the model are no poles.
   double longest_pole = 5e-7;
+  /// The same for those that cross much of the face's parameter plane, as a pole does.
+  double longest_wide_pole = 1e-4;
 };
 
 /// Orders and closes the loops of one face.
@@ -126,9 +128,10 @@ public:
 
 private:
   static constexpr double same_parameter = 1e-6;
-  static constexpr double small = 1e-3;
+  static constexpr double small = 1e-3, much = 0.4; // of a face's rectangle
   static constexpr double unreachable = std::numeric_limits<double>::infinity();
-  static constexpr std::array<loop_manner, 2> if_open{{{true, unreachable}, {false, unreachable}}};
+  static constexpr std::array<loop_manner, 2> if_open{
+      {{true, unreachable, unreachable}, {false, unreachable, unreachable}}};
 
   /// Curves cross where all samplings do: a coarse one crosses where curves are close to each other, and what
   /// only fine ones see is smaller than elements are.
@@ -169,7 +172,7 @@ private:
       }
       if (BRep_Tool::Degenerated(edge) && !is_pole(made.curve)) {
         if (extent_of(made.curve) > same_parameter)
-          result_.note = "small edges that are no poles were left out";
+          result_.note = "edges without a curve in space that are no poles were left out";
         continue;
       }
       if (how_.with_projection)
@@ -187,8 +190,10 @@ private:
   /// A pole has an extent in the parameter plane, and none in space.
   bool is_pole(const coedge_curve& curve) const {
     const double extent = extent_of(curve);
-    return extent > small ||
-           (extent > same_parameter && length_on_surface(curve) <= how_.longest_pole * size_);
+    if (extent > small && extent < much)
+      return true;
+    return extent > same_parameter &&
+           length_on_surface(curve) <= (extent < much ? how_.longest_pole : how_.longest_wide_pole) * size_;
   }
 
   double extent_of(const coedge_curve& curve) const {

@@ -3,9 +3,10 @@
 /// a pin in a slot as wide as the pin, or two sides of a slit.
 #pragma once
 
+#include "dovetail/models/occt/fused_faces.hpp"
 #include "dovetail/models/occt/heal.hpp"
+#include "dovetail/models/occt/overlapping_edges.hpp"
 
-#include <BOPAlgo_Builder.hxx>
 #include <Precision.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 
@@ -16,6 +17,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -132,8 +134,8 @@ inline bool is_material_between(const TopoDS_Face& image, const TopoDS_Face& a, 
 /// nothing any more. Nothing where there is material between those, so that they are the sides of a sheet, or
 /// where they look the same way.
 /// \param body a solid or a face
-/// \param fuse the general fuse of all faces, each as FORWARD
-inline std::optional<TopoDS_Shape> body_of_images(const TopoDS_Shape& body, BOPAlgo_Builder& fuse) {
+/// \param fused what became of all faces
+inline std::optional<TopoDS_Shape> body_of_images(const TopoDS_Shape& body, fused_faces& fused) {
   struct image {
     TopoDS_Shape made;
     TopoDS_Face of;
@@ -141,11 +143,8 @@ inline std::optional<TopoDS_Shape> body_of_images(const TopoDS_Shape& body, BOPA
   std::vector<image> images;
   for (TopExp_Explorer faces(body, TopAbs_FACE); faces.More(); faces.Next()) {
     const TopoDS_Face& face = TopoDS::Face(faces.Current());
-    const TopTools_ListOfShape& made = fuse.Modified(face);
-    for (const TopoDS_Shape& one : made) // as if the face were FORWARD
-      images.push_back({face.Orientation() == TopAbs_REVERSED ? one.Reversed() : one, face});
-    if (made.IsEmpty() && !fuse.IsDeleted(face))
-      images.push_back({face, face});
+    for (const TopoDS_Face& part : fused.parts_of(face))
+      images.push_back({part.Composed(face.Orientation()), face});
   }
   TopTools_IndexedMapOfShape different;
   std::vector<std::vector<image>> alike;
@@ -174,40 +173,32 @@ inline std::optional<TopoDS_Shape> body_of_images(const TopoDS_Shape& body, BOPA
 /// The general fuse of all faces at a tolerance, and the bodies made of them again. Nothing when OCCT fails,
 /// or a sheet would vanish.
 inline std::optional<attributed_shape> fuse_of_faces(const attributed_shape& input, const brep& data,
-                                                     double tolerance) {
-  BOPAlgo_Builder fuse;
-  if (!perform_fuse(fuse, data.faces, tolerance))
+                                                     double tolerance, bool with_edges) {
+  fused_faces fused;
+  if (!fused.perform(data, tolerance, with_edges))
     return std::nullopt;
   const BRep_Builder builder;
   TopoDS_Compound all;
   builder.MakeCompound(all);
   attributed_shape result = input;
   for (const TopoDS_Shape& body : bodies_of(data)) {
-    const auto made = body_of_images(body, fuse);
+    const auto made = body_of_images(body, fused);
     if (!made)
       return std::nullopt;
     result.names.inherit(*made, body);
     builder.Add(all, *made);
   }
-  inherit_from_fuse(result.names, input.shape, fuse);
+  inherit_attributes(result.names, input.shape,
+                     [&](const TopoDS_Shape& old) { return fused.compound_of(old); });
   result.shape = all;
   return result;
 }
 
-/// Makes faces share what they have in common, where they touch or are within `tolerance` of each other; both
-/// sides of a slit as narrow as that vanish. False, and nothing is changed, where there is nothing of the
-/// kind, or what would come out is not sound: a solid is gone or open, or passes through itself, or a sheet
-/// as thin as the tolerance would vanish.
-/// Complexity: that of OpenCASCADE's general fuse of all faces, a few milliseconds for each.
-/// \param input replaced by what the result is made of
-/// \param data replaced by the result
-/// \param made is told of repairs of slivers that the tolerance leaves
-/// \param what solids alone, or faces beside them
-/// \param tolerance a length; with 0 faces have to touch within the tolerances of the file
-inline bool join_touching_faces(attributed_shape& input, brep& data, report& made, wanted what,
-                                double tolerance) {
+/// `join_touching_faces`, or with the edges of each face compared too.
+inline bool join_parts(attributed_shape& input, brep& data, report& made, wanted what, double tolerance,
+                       bool with_edges) {
   try {
-    auto joined = fuse_of_faces(input, data, tolerance);
+    auto joined = fuse_of_faces(input, data, tolerance, with_edges);
     if (!joined)
       return false;
     brep found = brep_builder(joined->shape, joined->names).build();
@@ -226,6 +217,40 @@ inline bool join_touching_faces(attributed_shape& input, brep& data, report& mad
   } catch (const Standard_Failure&) { // the general fuse cannot cope with the shape
     return false;
   }
+}
+
+/// Makes faces share what they have in common, where they touch or are within `tolerance` of each other; both
+/// sides of a slit as narrow as that vanish. False, and nothing is changed, where there is nothing of the
+/// kind, or what would come out is not sound: a solid is gone or open, or passes through itself, or a sheet
+/// as thin as the tolerance would vanish.
+/// Complexity: that of OpenCASCADE's general fuse of all faces, a few milliseconds for each.
+/// \param input replaced by what the result is made of
+/// \param data replaced by the result
+/// \param made is told of repairs of slivers that the tolerance leaves
+/// \param what solids alone, or faces beside them
+/// \param tolerance a length; with 0 faces have to touch within the tolerances of the file
+inline bool join_touching_faces(attributed_shape& input, brep& data, report& made, wanted what,
+                                double tolerance) {
+  return join_parts(input, data, made, what, tolerance, false);
+}
+
+/// The same for the edges of a face that lie on each other: what is between them has no width, and no size
+/// resolves it. The tolerance is a millionth of the model. Where it cannot be joined so the model stays as it
+/// is.
+/// Complexity: about n log n in the edges of each face; where there are such edges that of
+/// `join_touching_faces`.
+/// \param input replaced by what the result is made of
+/// \param data replaced by the result
+/// \param made is told
+inline void join_overlapping_edges(attributed_shape& input, brep& data, report& made) {
+  const double within = 1e-6 * size_of(input.shape);
+  const auto face = face_with_overlapping_edges(data, within);
+  if (!face)
+    return;
+  const std::string what = face_text(data, *face);
+  if (join_parts(input, data, made, wanted::solids, within, true))
+    made.warnings.push_back("edges that lie on each other, such as those of " + what +
+                            ", were made one; numbers of faces and edges are other ones");
 }
 
 } // namespace dovetail::occt

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/models/virtual/block_vector.hpp"
 
 #include <array>
 #include <cstddef>
@@ -34,7 +35,7 @@ struct passage {
 
 /// Entities keep the numbers that they have in the model, and those that curves are split into come after
 /// them. What is taken away stays as a number: a face without loops, a curve without coedges. A value: a copy
-/// is an attempt that can be dropped.
+/// is an attempt that can be dropped, and costs a small part of the model.
 class editable_topology {
 public:
   /// \param model stays, and is not copied
@@ -59,7 +60,7 @@ public:
 
   /// Whether a face passes along a curve.
   bool is_used(local_id c) const { return passages_[c] > 0; }
-  /// All that pass along a curve, face by face. Linear in the model.
+  /// All that pass along a curve, face by face. Linear in the boundaries of these faces.
   std::vector<passage> passages_of(local_id c) const;
   /// Whether no curve has lost more than half of the distance between its ends.
   bool has_long_curves() const;
@@ -115,21 +116,24 @@ public:
   geometry_topology topology() const;
 
 private:
-  void count_passages();
+  /// Counts a passage more of a face.
+  void add_passage(local_id c, local_id f);
   double measured_length(local_id c) const;
   double measured_chord(local_id c) const {
     return distance(point(c, curves_[c].t[0]), point(c, curves_[c].t[1]));
   }
 
   const any_geometry* model_;
-  std::vector<geometry_topology::vertex> vertices_;
-  std::vector<geometry_topology::curve> curves_;
-  std::vector<local_id> inner_curve_;
-  std::vector<std::vector<std::vector<virtual_coedge>>> loops_; ///< by face
-  std::vector<int> passages_;                                   ///< by curve
-  std::vector<double> lengths_;                                 ///< by curve
-  std::vector<double> chords_;                                  ///< by curve: between the model's own ends
-  std::vector<double> vertex_deviations_, curve_deviations_;
+  block_vector<geometry_topology::vertex> vertices_;
+  block_vector<geometry_topology::curve> curves_;
+  block_vector<local_id> inner_curve_;
+  block_vector<std::vector<std::vector<virtual_coedge>>> loops_; ///< by face
+  block_vector<int> passages_;                                   ///< by curve: how many
+  block_vector<std::vector<local_id>> faces_;                    ///< by curve: growing, those with a passage
+                                                                 ///< and perhaps others
+  block_vector<double> lengths_;                                 ///< by curve
+  block_vector<double> chords_;                                  ///< by curve: between the model's own ends
+  block_vector<double> vertex_deviations_, curve_deviations_;
 };
 
 /// The parameter on a coedge's own curve beside parameter t of the curve `inner` that it passes along.

@@ -38,43 +38,47 @@ DOVETAIL_INLINE double own_parameter(const any_geometry& model, local_id inner, 
 }
 
 DOVETAIL_INLINE editable_topology::editable_topology(const any_geometry* model)
-    : model_(model), vertices_(model->topology().vertices), curves_(model->topology().curves) {
-  for (std::size_t c = 0; c < curves_.size(); ++c)
-    inner_curve_.push_back(static_cast<local_id>(c));
-  for (const auto& face : model->topology().faces) {
-    auto& loops = loops_.emplace_back();
-    int own = 0;
-    for (const auto& given : face.loops) {
-      auto& loop = loops.emplace_back();
-      for (const auto& coedge : given)
-        loop.push_back({coedge.curve, coedge.reversed, own++, coedge.curve});
-    }
-  }
-  count_passages();
-  vertex_deviations_.assign(vertices_.size(), 0);
-  curve_deviations_.assign(curves_.size(), 0);
+    : model_(model), vertices_(model->topology().vertices), curves_(model->topology().curves),
+      vertex_deviations_(std::vector<double>(vertices_.size())),
+      curve_deviations_(std::vector<double>(curves_.size())) {
   for (std::size_t c = 0; c < curves_.size(); ++c) {
+    inner_curve_.push_back(static_cast<local_id>(c));
+    passages_.push_back(0);
+    faces_.push_back({});
     lengths_.push_back(curves_[c].degenerate ? 0 : measured_length(static_cast<local_id>(c)));
     chords_.push_back(curves_[c].degenerate ? 0 : measured_chord(static_cast<local_id>(c)));
   }
+  for (const auto& face : model->topology().faces) {
+    std::vector<std::vector<virtual_coedge>> loops;
+    int own = 0;
+    for (const auto& given : face.loops) {
+      auto& loop = loops.emplace_back();
+      for (const auto& coedge : given) {
+        loop.push_back({coedge.curve, coedge.reversed, own++, coedge.curve});
+        add_passage(coedge.curve, static_cast<local_id>(loops_.size()));
+      }
+    }
+    loops_.push_back(std::move(loops));
+  }
 }
 
-DOVETAIL_INLINE void editable_topology::count_passages() {
-  passages_.assign(curves_.size(), 0);
-  for (const auto& loops : loops_)
-    for (const auto& loop : loops)
-      for (const auto& coedge : loop)
-        ++passages_[coedge.curve];
+DOVETAIL_INLINE void editable_topology::add_passage(local_id c, local_id f) {
+  ++passages_.change(c);
+  const auto& known = faces_[c];
+  const auto place = std::lower_bound(known.begin(), known.end(), f) - known.begin();
+  if (place == static_cast<std::ptrdiff_t>(known.size()) || known[place] != f) {
+    auto& faces = faces_.change(c);
+    faces.insert(faces.begin() + place, f);
+  }
 }
 
 DOVETAIL_INLINE std::vector<passage> editable_topology::passages_of(local_id c) const {
   std::vector<passage> found;
-  const auto count = static_cast<std::size_t>(passages_[c]);
-  for (std::size_t f = 0; f < loops_.size() && found.size() < count; ++f)
+  for (const local_id f : faces_[c])
     for (std::size_t l = 0; l < loops_[f].size(); ++l)
       for (std::size_t k = 0; k < loops_[f][l].size(); ++k)
         if (loops_[f][l][k].curve == c)
-          found.push_back({static_cast<local_id>(f), l, k});
+          found.push_back({f, l, k});
   return found;
 }
 
@@ -89,8 +93,8 @@ DOVETAIL_INLINE bool editable_topology::has_long_curves() const {
 }
 
 DOVETAIL_INLINE bool editable_topology::has_closed_loops() const {
-  for (const auto& loops : loops_)
-    for (const auto& loop : loops)
+  for (std::size_t f = 0; f < loops_.size(); ++f)
+    for (const auto& loop : loops_[f])
       for (std::size_t k = 0; k < loop.size(); ++k)
         if (ends(loop[k])[1] != ends(loop[(k + 1) % loop.size()])[0])
           return false;
@@ -171,14 +175,20 @@ DOVETAIL_INLINE local_id editable_topology::split(local_id c, double t) {
   const auto behind = static_cast<local_id>(curves_.size());
   const auto middle = static_cast<local_id>(vertices_.size());
   vertices_.push_back({point(c, t), curves_[c].tolerance});
-  curves_.push_back(curves_[c]);
-  inner_curve_.push_back(inner_curve_[c]);
   vertex_deviations_.push_back(curve_deviations_[c]);
-  curve_deviations_.push_back(curve_deviations_[c]);
-  curves_[c].t[1] = curves_.back().t[0] = t;
-  curves_[c].vertices[1] = curves_.back().vertices[0] = middle;
+  geometry_topology::curve second = curves_[c];
+  second.t[0] = t;
+  second.vertices[0] = middle;
+  curves_.push_back(std::move(second));
+  auto& first_part = curves_.change(c);
+  first_part.t[1] = t;
+  first_part.vertices[1] = middle;
+  inner_curve_.push_back(local_id{inner_curve_[c]});
+  curve_deviations_.push_back(double{curve_deviations_[c]});
+  passages_.push_back(0);
+  faces_.push_back({});
   for (const passage& p : passages_of(c)) {
-    auto& loop = loops_[p.face][p.loop];
+    auto& loop = loops_.change(p.face)[p.loop];
     // Passages of one loop come in its order, and each one before makes it longer by one.
     const auto shift = static_cast<std::size_t>(
         std::count_if(loop.begin(), loop.end(), [&](const auto& e) { return e.curve == behind; }));
@@ -197,27 +207,31 @@ DOVETAIL_INLINE local_id editable_topology::split(local_id c, double t) {
     const bool reversed = first->reversed;
     *first = reversed ? after : before;
     loop.insert(first + 1, reversed ? std::move(before) : std::move(after));
+    add_passage(behind, p.face);
   }
-  count_passages();
   lengths_.push_back(measured_length(behind));
   chords_.push_back(measured_chord(behind));
-  chords_[c] = measured_chord(c);
-  lengths_[c] = measured_length(c);
+  chords_.change(c) = measured_chord(c);
+  lengths_.change(c) = measured_length(c);
   return behind;
 }
 
 DOVETAIL_INLINE void editable_topology::merge_vertices(local_id gone, local_id kept) {
   if (gone == kept)
     return;
-  vertex_deviations_[kept] =
+  vertex_deviations_.change(kept) =
       std::max(vertex_deviations_[kept],
                vertex_deviations_[gone] + distance(vertices_[gone].point, vertices_[kept].point));
-  for (auto& curve : curves_)
-    std::replace(curve.vertices.begin(), curve.vertices.end(), gone, kept);
+  for (std::size_t c = 0; c < curves_.size(); ++c)
+    if (const auto& ends = curves_[c].vertices; std::count(ends.begin(), ends.end(), gone) > 0) {
+      auto& changed = curves_.change(c).vertices;
+      std::replace(changed.begin(), changed.end(), gone, kept);
+    }
 }
 
 DOVETAIL_INLINE void editable_topology::drop(const passage& p, local_id kept) {
-  auto& loop = loops_[p.face][p.loop];
+  auto& loops = loops_.change(p.face);
+  auto& loop = loops[p.loop];
   const std::size_t count = loop.size();
   const virtual_coedge gone = loop[p.place];
   if (count > 1) {
@@ -233,14 +247,15 @@ DOVETAIL_INLINE void editable_topology::drop(const passage& p, local_id kept) {
   }
   loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(p.place));
   if (loop.empty())
-    loops_[p.face].erase(loops_[p.face].begin() + static_cast<std::ptrdiff_t>(p.loop));
-  --passages_[gone.curve];
+    loops.erase(loops.begin() + static_cast<std::ptrdiff_t>(p.loop));
+  --passages_.change(gone.curve);
 }
 
 DOVETAIL_INLINE void editable_topology::drop_all(local_id c, local_id kept) {
   for (auto passages = passages_of(c); !passages.empty(); passages = passages_of(c))
     drop(passages.front(), kept);
-  for (const local_id v : curves_[c].vertices)
+  const auto ends = curves_[c].vertices; // a copy: merging changes them
+  for (const local_id v : ends)
     merge_vertices(v, kept);
 }
 
@@ -249,13 +264,16 @@ DOVETAIL_INLINE void editable_topology::cut_out(local_id f, const std::vector<lo
   const auto is_gone = [&](const virtual_coedge& coedge) {
     return std::find(curves.begin(), curves.end(), coedge.curve) != curves.end();
   };
-  for (auto& loop : loops_[f]) {
+  for (auto& loop : loops_.change(f)) {
     if (std::none_of(loop.begin(), loop.end(), is_gone))
       continue;
     // The loop begins behind what is cut out.
     std::rotate(loop.begin(), std::find_if_not(loop.begin(), loop.end(), is_gone), loop.end());
     const auto last_gone = std::find_if(loop.rbegin(), loop.rend(), is_gone).base();
     std::rotate(loop.begin(), last_gone, loop.end());
+    for (const virtual_coedge& coedge : loop)
+      if (is_gone(coedge))
+        --passages_.change(coedge.curve);
     std::erase_if(loop, is_gone);
     virtual_coedge &first = loop.front(), &last = loop.back();
     const auto end_of = [&](const virtual_coedge& coedge, bool at_start) {
@@ -269,7 +287,6 @@ DOVETAIL_INLINE void editable_topology::cut_out(local_id f, const std::vector<lo
     else
       first.corners[end_of(first, true)] = uv_at(last, end_of(last, false));
   }
-  count_passages();
 }
 
 DOVETAIL_INLINE void editable_topology::replace_curve(local_id gone, local_id kept, bool same_direction,
@@ -277,7 +294,7 @@ DOVETAIL_INLINE void editable_topology::replace_curve(local_id gone, local_id ke
   const auto& t = curves_[kept].t;
   double furthest = curve_deviations_[gone] + width;
   for (const passage& p : passages_of(gone)) {
-    virtual_coedge& coedge = loops_[p.face][p.loop][p.place];
+    virtual_coedge& coedge = loops_.change(p.face)[p.loop][p.place];
     const auto& range = curves_[gone].t;
     std::array own{own_parameter(*model_, inner_curve_[gone], coedge, range[0]),
                    own_parameter(*model_, inner_curve_[gone], coedge, range[1])};
@@ -302,22 +319,26 @@ DOVETAIL_INLINE void editable_topology::replace_curve(local_id gone, local_id ke
       furthest = std::max(furthest, distance(point(kept, at), model_->curve_point(coedge.own_curve, beside)));
     coedge.beside = std::move(pairs);
     coedge.curve = kept;
+    --passages_.change(gone);
+    add_passage(kept, p.face);
   }
-  curves_[kept].tolerance = std::max(curves_[kept].tolerance, curves_[gone].tolerance);
-  curve_deviations_[kept] = std::max(curve_deviations_[kept], furthest);
-  count_passages();
+  curves_.change(kept).tolerance = std::max(curves_[kept].tolerance, curves_[gone].tolerance);
+  curve_deviations_.change(kept) = std::max(curve_deviations_[kept], furthest);
 }
 
 DOVETAIL_INLINE void editable_topology::remove_face(local_id f) {
-  loops_[f].clear();
-  count_passages();
+  for (const auto& loop : loops_[f])
+    for (const virtual_coedge& coedge : loop)
+      --passages_.change(coedge.curve);
+  loops_.change(f).clear();
 }
 
 DOVETAIL_INLINE geometry_topology editable_topology::topology() const {
   geometry_topology made;
   made.faces = model_->topology().faces;
   made.solids = model_->topology().solids;
-  made.curves = curves_;
+  for (std::size_t c = 0; c < curves_.size(); ++c)
+    made.curves.push_back(curves_[c]);
   std::vector<local_id> number(vertices_.size(), no_id);
   for (std::size_t c = 0; c < curves_.size(); ++c)
     if (passages_[c] > 0)

@@ -18,7 +18,13 @@ namespace dovetail::virtual_topology {
 std::size_t collapse_narrow_faces(editable_topology& topology, const limits& allowed,
                                   std::vector<suppressed_detail>& found);
 
-/// Makes a curve of the end of each face that runs into a point, as far as it is narrow; else as above.
+/// The same, of those alone that turn back along a face behind one of their long sides: the surface goes back
+/// on itself there, which is how a step is drawn that should not be.
+std::size_t collapse_folded_faces(editable_topology& topology, const limits& allowed,
+                                  std::vector<suppressed_detail>& found);
+
+/// Makes a curve of the end of each face that runs into a point, as far as it is narrow; else as narrow
+/// faces.
 std::size_t collapse_narrow_ends(editable_topology& topology, const limits& allowed,
                                  std::vector<suppressed_detail>& found);
 

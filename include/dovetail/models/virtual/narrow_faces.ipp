@@ -280,8 +280,12 @@ DOVETAIL_INLINE std::size_t collapse_narrow_ends(editable_topology& topology, co
   return count;
 }
 
-DOVETAIL_INLINE std::size_t collapse_narrow_faces(editable_topology& topology, const limits& allowed,
-                                                  std::vector<suppressed_detail>& found) {
+namespace detail {
+
+/// Makes curves of the narrow faces of which `is_wanted(face, strip)`.
+template <class Wanted>
+std::size_t collapse_strips(editable_topology& topology, const limits& allowed,
+                            std::vector<suppressed_detail>& found, const Wanted& is_wanted) {
   std::size_t count = 0;
   for (std::size_t k = 0; k < topology.face_count(); ++k) {
     const auto f = static_cast<local_id>(k);
@@ -289,17 +293,47 @@ DOVETAIL_INLINE std::size_t collapse_narrow_faces(editable_topology& topology, c
     if (!narrow)
       continue;
     const auto width = width_of(topology, allowed, *narrow);
-    if (!width || topology.is_last_of_group(f))
+    if (!width || !is_wanted(f, *narrow) || topology.is_last_of_group(f))
       continue;
-    auto collapsed = detail::collapsed(topology, allowed, f, *narrow, *width);
-    if (!collapsed)
+    auto made = collapsed(topology, allowed, f, *narrow, *width);
+    if (!made)
       continue;
     found.push_back(
         {suppressed_detail::kind::narrow_face, f, topology.middle(narrow->sides[0].front().curve), *width});
-    topology = std::move(*collapsed);
+    topology = std::move(*made);
     ++count;
   }
   return count;
+}
+
+/// Whether another face lies along a strip behind one of its sides, within 20 degrees.
+inline bool turns_back_along_neighbour(const editable_topology& topology, local_id f, const strip& narrow) {
+  constexpr double along_deg = 20;
+  const auto inward = [&](const passage& p) { return topology.inward(p.face, topology.at(p), 0.5); };
+  for (const side& one : narrow.sides)
+    for (const side_curve& passed : one) {
+      const auto passages = topology.passages_of(passed.curve);
+      for (const passage& own : passages)
+        for (const passage& other : passages)
+          if (own.face == f && other.face != f &&
+              angle_between(inward(own), inward(other)) < along_deg / degrees_per_radian)
+            return true;
+    }
+  return false;
+}
+
+} // namespace detail
+
+DOVETAIL_INLINE std::size_t collapse_narrow_faces(editable_topology& topology, const limits& allowed,
+                                                  std::vector<suppressed_detail>& found) {
+  return detail::collapse_strips(topology, allowed, found, [](local_id, const strip&) { return true; });
+}
+
+DOVETAIL_INLINE std::size_t collapse_folded_faces(editable_topology& topology, const limits& allowed,
+                                                  std::vector<suppressed_detail>& found) {
+  return detail::collapse_strips(topology, allowed, found, [&](local_id f, const strip& narrow) {
+    return detail::turns_back_along_neighbour(topology, f, narrow);
+  });
 }
 
 } // namespace dovetail::virtual_topology
