@@ -455,7 +455,7 @@ private:
     figures_.quality = finished.quality;
     figures_.at_interfaces = finished.at_interfaces;
     figures_.poor = finished.poor;
-    warn_of_thin_walls();
+    warn_of_narrow_places();
     figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes,
                                        finished.summary.template as<io::finishing_counts>().peak_rss_bytes);
     figures_.details.children.push_back(finished.summary);
@@ -468,19 +468,23 @@ private:
       figures_.out = options_.out;
   }
 
-  void warn_of_thin_walls() {
+  /// Walls in D = 3, faces in D = 2.
+  void warn_of_narrow_places() {
     const auto& poor = figures_.poor;
     const auto bad = poor.bad_by(poor_cause::thin_wall);
     if (bad == 0)
       return;
-    const std::string where = std::isfinite(poor.thinnest_wall)
-                                  ? "; the thinnest is " + number_text(poor.thinnest_wall, 3) + " thick at " +
-                                        place_text(poor.thinnest_place)
-                                  : "";
+    const std::string where =
+        std::isfinite(poor.thinnest_wall)
+            ? (D == 3 ? "; the thinnest is " : "; the narrowest is ") + number_text(poor.thinnest_wall, 3) +
+                  (D == 3 ? " thick at " : " wide at ") + place_text(poor.thinnest_place)
+            : "";
+    const char* elements =
+        D == 3 ? (bad == 1 ? " tetrahedron" : " tetrahedra") : (bad == 1 ? " triangle" : " triangles");
     figures_.warnings.push_back(
-        std::to_string(bad) + (bad == 1 ? " tetrahedron under " : " tetrahedra under ") +
-        std::to_string(bad_dihedral_deg) + (bad == 1 ? " degrees is in walls" : " degrees are in walls") +
-        " thinner than the size" + where + ": smaller sizes there put more elements across");
+        std::to_string(bad) + elements + " under " + std::to_string(limits_of(D).bad) +
+        (bad == 1 ? " degrees is in " : " degrees are in ") + (D == 3 ? "walls thinner" : "faces narrower") +
+        " than the size" + where + ": smaller sizes there put more elements across");
   }
 
   /// The mesh is complete before: who stops this or kills it loses the checksums only.

@@ -7,6 +7,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/poor_elements.hpp"
+#include "dovetail/mesh/poor_triangles.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/mesh/quality_at_interfaces.hpp"
 #include "dovetail/models/virtual/suppressed_detail.hpp"
@@ -79,7 +80,7 @@ struct run_figures {
   stage_seconds seconds;
   quality_statistics quality;
   quality_at_interfaces at_interfaces;            ///< of the same elements
-  poor_elements poor;                             ///< of tetrahedra
+  poor_elements poor;                             ///< by their causes
   std::vector<suppressed_detail> suppressed = {}; ///< details of the model that the mesh does not have
   interface_figures interfaces, coarse_interfaces;
   report deviation; ///< from the CAD: "points" and "centres" in units of the local size, and a child per face
@@ -125,7 +126,13 @@ struct quality_limits {
   int bad, low;
 };
 constexpr quality_limits limits_of(int dimension) {
-  return dimension == 3 ? quality_limits{bad_dihedral_deg, low_dihedral_deg} : quality_limits{15, 30};
+  return dimension == 3 ? quality_limits{bad_dihedral_deg, low_dihedral_deg}
+                        : quality_limits{bad_corner_deg, low_corner_deg};
+}
+
+/// What a cause of poor elements is called.
+inline std::string_view name_of_cause(poor_cause cause, int dimension) {
+  return dimension == 3 ? name_of(cause) : name_of_triangles(cause);
 }
 
 /// The number of tetrahedra with a smallest dihedral angle in the ranges of the paper's table of quality; the

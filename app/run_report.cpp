@@ -71,12 +71,14 @@ json at_interfaces_json(const quality_at_interfaces& found, int dimension) {
           {"rest", ring_json(found.rest, dimension)}};
 }
 
-/// By cause; each tetrahedron under the low limit is counted once.
-json poor_elements_json(const poor_elements& poor) {
+/// By cause; each element under the low limit is counted once.
+json poor_elements_json(const poor_elements& poor, int dimension) {
   json causes = json::array();
   for (std::size_t k = 0; k < poor_causes; ++k) {
     const auto cause = static_cast<poor_cause>(k);
-    causes.push_back({{"cause", name_of(cause)}, {"bad", poor.bad_by(cause)}, {"low", poor.low_by(cause)}});
+    causes.push_back({{"cause", name_of_cause(cause, dimension)},
+                      {"bad", poor.bad_by(cause)},
+                      {"low", poor.low_by(cause)}});
   }
   json thinnest;
   if (std::isfinite(poor.thinnest_wall)) {
@@ -196,7 +198,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
                    {"seconds", seconds_json(figures.seconds)},
                    {"quality", quality_json(figures.quality, figures.dimension)},
                    {"at_interfaces", at_interfaces_json(figures.at_interfaces, figures.dimension)},
-                   {"poor_elements", poor_elements_json(figures.poor)},
+                   {"poor_elements", poor_elements_json(figures.poor, figures.dimension)},
                    {"suppressed", suppressed_json(figures.suppressed)},
                    {"interfaces", interfaces},
                    {"deviation", deviation_json(figures.deviation)},

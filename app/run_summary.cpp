@@ -182,14 +182,15 @@ void add_at_interfaces(table& rows, const quality_at_interfaces& at_interfaces, 
 }
 
 /// By their causes, where there are any.
-void add_poor_elements(table& rows, const poor_elements& poor) {
+void add_poor_elements(table& rows, const poor_elements& poor, int dimension) {
   const auto all = std::accumulate(poor.low.begin(), poor.low.end(), std::int64_t{0});
   if (all == 0)
     return;
-  rows.heading("Low-quality tets by cause (of these bad)");
+  rows.heading(dimension == 3 ? "Low-quality tets by cause (of these bad)"
+                              : "Low-quality triangles by cause (of these bad)");
   for (std::size_t k = 0; k < poor_causes; ++k)
     if (const auto cause = static_cast<poor_cause>(k); poor.low_by(cause) > 0) {
-      std::string label(name_of(cause));
+      std::string label(name_of_cause(cause, dimension));
       label.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(label.front())));
       rows.whole(label, poor.low_by(cause), poor.bad_by(cause));
     }
@@ -240,7 +241,7 @@ std::string summary_text(const run_figures& figures) {
     add_deviation(rows, figures.deviation);
   add_quality(rows, figures.quality, figures.dimension);
   add_at_interfaces(rows, figures.at_interfaces, figures.dimension);
-  add_poor_elements(rows, figures.poor);
+  add_poor_elements(rows, figures.poor, figures.dimension);
   if (!figures.repeatable)
     rows.heading("NOT REPEATABLE: a limit of wall-clock time has decided on a part of the mesh");
   for (const auto& warning : figures.warnings)

@@ -42,7 +42,7 @@ struct finished_mesh {
   std::uint64_t hash = 0;              ///< as `mesh_hash`
   quality_statistics quality;          ///< `worst_element` is a global number
   quality_at_interfaces at_interfaces; ///< the same elements by their distance from interfaces
-  poor_elements poor;                  ///< in D = 3, by their causes
+  poor_elements poor;                  ///< by their causes
   report summary;                      ///< `finishing_counts`; a child per writer
 };
 

@@ -12,6 +12,7 @@
 #include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/mesh/poor_triangles.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 
 #include <algorithm>
@@ -292,8 +293,7 @@ private:
       const piece_quality quality = quality_of(p, piece);
       done.quality.merge(quality.all, numbers_.first_element[at]);
       done.at_interfaces.merge(*quality.at_interfaces);
-      if constexpr (D == 3)
-        if (quality.all.min_dihedrals.below(low_dihedral_deg) > 0)
+      if (quality.all.min_dihedrals.below(D == 3 ? low_dihedral_deg : low_corner_deg) > 0)
           done.poor.merge(find_poor_elements(piece, mesh_.skeleton, sides_[p]));
       hash_piece(done.hash, piece, numbers_);
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
