@@ -7,11 +7,17 @@
 #include "models/model_checks.hpp"
 #include "models/rings.hpp"
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRep_Builder.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -150,22 +156,68 @@ TEST_CASE("what does not touch itself stays as it is") {
   }
 }
 
+namespace {
+
+std::size_t most_loops(const occt_model& model) {
+  std::size_t most = 0;
+  for (const auto& face : model.topology().faces)
+    most = std::max(most, face.loops.size());
+  return most;
+}
+
+TopoDS_Shape compound_of(const std::vector<TopoDS_Shape>& shapes) {
+  const BRep_Builder builder;
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  for (const TopoDS_Shape& shape : shapes)
+    builder.Add(all, shape);
+  return all;
+}
+
+/// Whether faces of a shape have overlapping edges, before anything is done about them.
+bool overlaps(const TopoDS_Shape& shape, double within = 1e-6) {
+  occt::attributed_shape input;
+  input.shape = shape;
+  report made;
+  return !occt::faces_with_overlapping_edges(occt::repaired_brep(input, made), within).empty();
+}
+
+/// A plate whose outline has a line and an arc of a circle so large that are tangent where they meet.
+TopoDS_Shape plate_with_cusp(double radius, double length) {
+  const gp_Pnt cusp(0, 0, 0), end(length, 0, 0);
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0, radius, 0), gp_Dir(0, 0, 1)), radius);
+  const double angle = length / radius;
+  const gp_Pnt above(radius * std::sin(angle), radius * (1 - std::cos(angle)), 0);
+  BRepBuilderAPI_MakeWire wire;
+  wire.Add(BRepBuilderAPI_MakeEdge(cusp, end).Edge());
+  for (const auto& [from, to] :
+       {std::pair(end, gp_Pnt(1, -1, 0)), {gp_Pnt(1, -1, 0), gp_Pnt(1, 1, 0)}, {gp_Pnt(1, 1, 0), above}})
+    wire.Add(BRepBuilderAPI_MakeEdge(from, to).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(circle, cusp, above).Edge());
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 1)).Shape();
+}
+
+/// A cylinder with a bar at its seam whose upper side is so far below the cylinder's.
+TopoDS_Shape cylinder_with_flush_bar(double below) {
+  return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(2, 3).Shape(),
+                          BRepPrimAPI_MakeBox(gp_Pnt(1, -0.5, 1), gp_Pnt(4, 0.5, 3 - below)).Shape())
+      .Shape();
+}
+
+} // namespace
+
 TEST_CASE("edges of a face that lie on each other are made one, by themselves") {
-  const auto most_loops = [](const occt_model& model) {
-    std::size_t most = 0;
-    for (const auto& face : model.topology().faces)
-      most = std::max(most, face.loops.size());
-    return most;
-  };
   for (const double below : {1e-8, 1e-7, 1e-6}) {
     CAPTURE(below);
+    CHECK(overlaps(testing::block_with_flush_bar(below), 5e-6));
     const auto joined = read(testing::block_with_flush_bar(below));
     CHECK_FALSE(joined.joined); // nobody has asked for it
     CHECK(joined.model.topology().faces.size() == 11);
     CHECK(most_loops(joined.model) == 1);
     CHECK(most_passages(joined.model.topology()) == 2);
+    CAPTURE(joined.report.warnings.back());
     REQUIRE(joined.report.warnings.size() == 1);
-    CHECK(joined.report.warnings[0].starts_with("edges that lie on each other"));
+    CHECK(joined.report.warnings[0].find("were made one") != std::string::npos);
     CHECK(joined.model.volume().value() == doctest::Approx(9 + 2 * 0.6).epsilon(1e-5));
     const auto made = mesh(joined.model);
     CHECK(made.failures.empty());
@@ -176,14 +228,50 @@ TEST_CASE("edges of a face that lie on each other are made one, by themselves") 
   CHECK(apart.report.warnings.empty());
 }
 
+TEST_CASE("so are they on a cylinder, though it has as many faces, edges and vertices then") {
+  const TopoDS_Shape shape = cylinder_with_flush_bar(2e-6);
+  REQUIRE(overlaps(shape, 5e-6));
+  const auto joined = read(shape);
+  REQUIRE(joined.report.warnings.size() == 1);
+  CHECK(joined.report.warnings[0].find("were made one") != std::string::npos);
+  CHECK(mesh(joined.model).quality.min_dihedral_deg > 12);
+}
+
+TEST_CASE("so are they of solids that touch others, and names outlast it") {
+  const TopoDS_Shape bar = testing::block_with_flush_bar(1e-7);
+  occt::attributed_shape input;
+  input.shape = compound_of({bar, BRepPrimAPI_MakeBox(gp_Pnt(0, 3, 0), 1, 1, 1).Shape(),
+                             BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 1, 1, 1).Shape()});
+  input.source = "bar";
+  const TopTools_IndexedMapOfShape faces = occt::sub_shapes(bar, TopAbs_FACE);
+  for (int f = 1; f <= faces.Extent(); ++f)
+    input.names[faces(f)].name = "side " + std::to_string(f);
+  input.names[bar].name = "bar";
+  const auto joined = occt_model_from(std::move(input));
+  const auto& topology = joined.model.topology();
+  CHECK(topology.solids.size() == 3);
+  CHECK(topology.solids[0].name == "bar");
+  for (const auto& face : topology.faces)
+    CHECK(face.name.empty() == (face.solids[0] != 0));
+  const auto made = mesh(joined.model);
+  CHECK(made.failures.empty());
+  CHECK(made.quality.min_dihedral_deg > 12);
+}
+
 TEST_CASE("edges lie on each other over more than a point, or they do not") {
-  const auto overlaps = [](const TopoDS_Shape& shape) {
-    return occt::face_with_overlapping_edges(read(shape).model.data(), 1e-6).has_value();
-  };
   CHECK_FALSE(overlaps(BRepPrimAPI_MakeBox(1, 1, 1).Shape()));
   CHECK_FALSE(overlaps(BRepPrimAPI_MakeCylinder(1, 2).Shape())); // a seam
   CHECK_FALSE(overlaps(testing::pin_in_hole(0.1)));
   CHECK_FALSE(overlaps(testing::block_with_flush_bar(1e-3)));
+  CHECK_FALSE(overlaps(cylinder_with_flush_bar(0.1)));
+  for (const double radius : {1.0, 20.0, 1000.0})
+    for (const double length : {0.002, 0.02, 0.2}) {
+      CAPTURE(radius);
+      CAPTURE(length);
+      const bool is_thick = length * length > 32 * 1e-6 * radius; // half way along; else it is a sliver
+      if (is_thick)
+        CHECK_FALSE(overlaps(plate_with_cusp(radius, length)));
+    }
   // The corner of an opening touches the outer boundary: a point.
   const TopoDS_Shape bar =
       BRepPrimAPI_MakePrism(

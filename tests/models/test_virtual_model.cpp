@@ -2,6 +2,7 @@
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/models/virtual/block_vector.hpp"
 #include "dovetail/models/virtual_model.hpp"
+#include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/kept_details.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "models/discrete_shapes.hpp"
@@ -12,6 +13,7 @@
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepFilletAPI_MakeChamfer.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
@@ -322,10 +324,47 @@ TEST_CASE("a face along which the surface turns back on itself is a detail up to
   CHECK(kinds_of(made) == std::vector{kind::narrow_face});
   CHECK(made.suppressed().front().length == doctest::Approx(0.1));
   CHECK(virtual_model(given, uniform_size(0.3), {.share_of_folded = 0.25}).suppressed().empty());
+  CHECK(virtual_model(given, uniform_size(0.3), {.share_of_size = 0}).suppressed().empty());
   CHECK(virtual_model(given, uniform_size(0.09)).suppressed().empty());
+  CHECK(generate<3>(made, uniform_size(0.3), parameters<>{}.with_options({.subdomains = 1}))
+            .quality.min_dihedral_deg > 12);
   // A face as wide between two that go on is none.
   CHECK(virtual_model(chamfered_cube(0.1, 0.1).model(), uniform_size(0.3)).suppressed().empty());
   CHECK_THROWS_AS(virtual_model(given, uniform_size(1.0), {.share_of_folded = -1}), sizing_error);
+}
+
+namespace {
+
+/// The prism over an outline that goes along the upper side of a bar: corners of x and height.
+TopoDS_Shape bar_with_profile(const std::vector<vec2>& profile) {
+  BRepBuilderAPI_MakePolygon outline;
+  for (const vec2 p : profile)
+    outline.Add(gp_Pnt(p.x, 0, p.y));
+  outline.Add(gp_Pnt(20, 0, -5));
+  outline.Add(gp_Pnt(0, 0, -5));
+  outline.Close();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire()).Face(), gp_Vec(0, 4, 0)).Shape();
+}
+
+} // namespace
+
+TEST_CASE("ribs, grooves, steps and teeth stay, however sharp they are") {
+  const auto stays = [](const TopoDS_Shape& shape) {
+    CHECK(virtual_model(model_of(shape), uniform_size(1.0)).suppressed().empty());
+  };
+  for (const double half : {0.15, 0.08, 0.04}) {
+    CAPTURE(half);
+    for (const double height : {0.95, -0.95})
+      stays(bar_with_profile({{0, 0}, {10 - half, 0}, {10, height}, {10 + half, 0}, {20, 0}}));
+    std::vector<vec2> teeth{{0, 0}};
+    for (int k = 0; k < 5; ++k)
+      for (const vec2 p : {vec2{-half, 0}, vec2{0, 0.95}})
+        teeth.push_back({10 + 2 * half * k + p.x, p.y});
+    teeth.push_back({10 + 9 * half, 0});
+    teeth.push_back({20, 0});
+    stays(bar_with_profile(teeth));
+    stays(bar_with_profile({{0, 0}, {10, 0}, {10, 0.9}, {10 + half, 0.1}, {10 + 2 * half, 0.9}, {20, 0.9}}));
+  }
 }
 
 TEST_CASE("copies of a sequence in blocks share what is the same in both") {

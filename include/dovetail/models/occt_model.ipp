@@ -207,8 +207,6 @@ DOVETAIL_INLINE_OCCT occt_read_result occt_model_from(occt::attributed_shape inp
   bool joined = false;
   occt::brep data = occt::guarded(source, [&] {
     occt::brep healed = occt::healed_brep(input, made, what);
-    if (what == occt::wanted::solids) // of single faces such edges may be meant: a crack
-      occt::join_overlapping_edges(input, healed, made);
     joined = join_within && occt::join_touching_faces(input, healed, made, what, *join_within);
     return healed;
   });

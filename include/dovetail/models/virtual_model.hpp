@@ -17,8 +17,10 @@ namespace dovetail {
 /// What of a model is a detail.
 struct virtual_options {
   double share_of_size = 0.25; ///< edges up to this share of the size there, and faces so narrow, are details
-  double share_of_folded = 1;  ///< the same for faces that turn back along a neighbour, as a step drawn twice
-  double least_angle_deg = 40; ///< what would leave a sharper edge between faces behind stays
+  double share_of_folded =
+      1; ///< the same, if it is larger and the other is not 0, for faces between two that
+         ///< go on along each other, where the surface goes there, back and there again
+  double least_angle_deg = 40;           ///< what would leave a sharper edge between faces behind stays
   double least_corner_deg = 28;          ///< what would leave a sharper corner of a face behind stays
   std::vector<local_id> kept_faces = {}; ///< whose boundaries stay as they are
 };

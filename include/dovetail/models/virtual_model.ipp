@@ -94,7 +94,8 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
                                     options.least_angle_deg, options.least_corner_deg, options.kept_faces};
   };
   const virtual_topology::limits allowed = up_to(options.share_of_size);
-  const virtual_topology::limits of_folded = up_to(std::max(options.share_of_size, options.share_of_folded));
+  const virtual_topology::limits of_folded =
+      up_to(options.share_of_size > 0 ? std::max(options.share_of_size, options.share_of_folded) : 0);
   auto made = std::make_shared<data>();
   virtual_topology::editable_topology topology(&model_);
   std::size_t found = 1;

@@ -164,10 +164,10 @@ inline bool give_up_solids(attributed_shape& input, brep& data, report& made) {
   return true;
 }
 
-/// The `brep` of a shape, healed. A shape without faults is not touched. Throws `geometry_error` naming the
+/// The `brep` of a shape, repaired. A shape without faults is not touched. Throws `geometry_error` naming the
 /// first entity that no repair mends.
 /// \param input replaced by what the result is made of
-inline brep healed_brep(attributed_shape& input, report& made, wanted what = wanted::solids) {
+inline brep repaired_brep(attributed_shape& input, report& made, wanted what = wanted::solids) {
   if (sub_shapes(input.shape, TopAbs_FACE).IsEmpty())
     throw geometry_error(input.source + ": the file has no faces, so nothing bounds a volume");
   if (!sub_shapes(input.shape, TopAbs_SOLID).IsEmpty()) {
@@ -199,7 +199,6 @@ inline brep healed_brep(attributed_shape& input, report& made, wanted what = wan
         faces.push_back(data.faces[f]);
       fix_faces(shape, faces);
     });
-  imprint_touching_bodies(input, data, made);
   return data;
 }
 

@@ -170,13 +170,9 @@ inline std::optional<TopoDS_Shape> body_of_images(const TopoDS_Shape& body, fuse
   return solid;
 }
 
-/// The general fuse of all faces at a tolerance, and the bodies made of them again. Nothing when OCCT fails,
-/// or a sheet would vanish.
-inline std::optional<attributed_shape> fuse_of_faces(const attributed_shape& input, const brep& data,
-                                                     double tolerance, bool with_edges) {
-  fused_faces fused;
-  if (!fused.perform(data, tolerance, with_edges))
-    return std::nullopt;
+/// The bodies of a model made again of fused faces. Nothing where a sheet would vanish.
+inline std::optional<attributed_shape> bodies_of_fused(const attributed_shape& input, const brep& data,
+                                                       fused_faces& fused) {
   const BRep_Builder builder;
   TopoDS_Compound all;
   builder.MakeCompound(all);
@@ -194,36 +190,44 @@ inline std::optional<attributed_shape> fuse_of_faces(const attributed_shape& inp
   return result;
 }
 
-/// `join_touching_faces`, or with the edges of each face compared too.
-inline bool join_parts(attributed_shape& input, brep& data, report& made, wanted what, double tolerance,
-                       bool with_edges) {
+/// Replaces a model by what is made of its faces, fused. False, and nothing is changed, where
+/// `is_wanted(found)` is false of what would come out, or that is not sound: a solid is gone or open, or
+/// passes through itself, or a sheet as thin as the tolerance would vanish.
+template <class Wanted>
+bool replace_by_fused(attributed_shape& input, brep& data, report& made, wanted what, fused_faces& fused,
+                      const Wanted& is_wanted) {
+  auto joined = bodies_of_fused(input, data, fused);
+  if (!joined)
+    return false;
+  brep found = brep_builder(joined->shape, joined->names).build();
+  report repairs;
+  if (!found.faults.empty() && !repair_faults(*joined, found, repairs, what))
+    return false;
+  if (found.solids.size() != data.solids.size() || !is_wanted(found) || !only_touches_itself(found))
+    return false;
+  data = std::move(found);
+  input = *std::move(joined);
+  append(made.warnings, repairs.warnings);
+  return true;
+}
+
+/// Whether an attempt succeeds; false where OpenCASCADE cannot cope with the shape.
+template <class Attempt>
+bool succeeds(const Attempt& attempt) {
   try {
-    auto joined = fuse_of_faces(input, data, tolerance, with_edges);
-    if (!joined)
-      return false;
-    brep found = brep_builder(joined->shape, joined->names).build();
-    report repairs;
-    if (!found.faults.empty() && !repair_faults(*joined, found, repairs, what))
-      return false;
-    if (found.solids.size() != data.solids.size() || entity_counts(found) == entity_counts(data) ||
-        !only_touches_itself(found))
-      return false;
-    data = std::move(found);
-    input = *std::move(joined);
-    append(made.warnings, repairs.warnings);
-    return true;
+    return attempt();
   } catch (const Standard_OutOfMemory&) {
     throw std::bad_alloc();
-  } catch (const Standard_Failure&) { // the general fuse cannot cope with the shape
+  } catch (const Standard_Failure&) {
     return false;
   }
 }
 
 /// Makes faces share what they have in common, where they touch or are within `tolerance` of each other; both
 /// sides of a slit as narrow as that vanish. False, and nothing is changed, where there is nothing of the
-/// kind, or what would come out is not sound: a solid is gone or open, or passes through itself, or a sheet
-/// as thin as the tolerance would vanish.
-/// Complexity: that of OpenCASCADE's general fuse of all faces, a few milliseconds for each.
+/// kind, or what would come out is not sound (`replace_by_fused`).
+/// Complexity: that of OpenCASCADE's general fuse of all faces, a few milliseconds for each of hundreds, and
+/// more for each of thousands.
 /// \param input replaced by what the result is made of
 /// \param data replaced by the result
 /// \param made is told of repairs of slivers that the tolerance leaves
@@ -231,26 +235,52 @@ inline bool join_parts(attributed_shape& input, brep& data, report& made, wanted
 /// \param tolerance a length; with 0 faces have to touch within the tolerances of the file
 inline bool join_touching_faces(attributed_shape& input, brep& data, report& made, wanted what,
                                 double tolerance) {
-  return join_parts(input, data, made, what, tolerance, false);
+  return succeeds([&] {
+    fused_faces fused;
+    return fused.perform(data, tolerance) &&
+           replace_by_fused(input, data, made, what, fused,
+                            [&](const brep& found) { return entity_counts(found) != entity_counts(data); });
+  });
 }
 
 /// The same for the edges of a face that lie on each other: what is between them has no width, and no size
-/// resolves it. The tolerance is a millionth of the model. Where it cannot be joined so the model stays as it
-/// is.
-/// Complexity: about n log n in the edges of each face; where there are such edges that of
-/// `join_touching_faces`.
+/// resolves it. The tolerance is a millionth of the model. Where they cannot be made one the model stays.
+/// Complexity: about n log n in the edges of each face; where there are such edges that of OpenCASCADE's
+/// general fuse of their bodies.
 /// \param input replaced by what the result is made of
 /// \param data replaced by the result
-/// \param made is told
+/// \param made is told, also where they stay
 inline void join_overlapping_edges(attributed_shape& input, brep& data, report& made) {
   const double within = 1e-6 * size_of(input.shape);
-  const auto face = face_with_overlapping_edges(data, within);
-  if (!face)
+  std::vector<local_id> faces;
+  if (!succeeds([&] {
+        faces = faces_with_overlapping_edges(data, within);
+        return !faces.empty();
+      }))
     return;
-  const std::string what = face_text(data, *face);
-  if (join_parts(input, data, made, wanted::solids, within, true))
-    made.warnings.push_back("edges that lie on each other, such as those of " + what +
-                            ", were made one; numbers of faces and edges are other ones");
+  const std::string what = "edges that lie on each other, such as those of " + face_text(data, faces.front());
+  const bool are_joined = succeeds([&] {
+    fused_faces fused;
+    return fused.perform_with_edges(data, faces, within) &&
+           replace_by_fused(input, data, made, wanted::solids, fused, [&](const brep& found) {
+             return faces_with_overlapping_edges(found, within).size() < faces.size();
+           });
+  });
+  made.warnings.push_back(what + (are_joined ? ", were made one; numbers of faces and edges are other ones"
+                                             : ", could not be made one; elements are flat there"));
+}
+
+/// The `brep` of a shape, healed: repaired, with edges that lie on each other made one, and with what solids
+/// have in common shared. Throws `geometry_error` naming the first entity that no repair mends.
+/// \param input replaced by what the result is made of
+/// \param made is told what was done
+/// \param what solids alone, or faces beside them: of these such edges may be meant, as a crack
+inline brep healed_brep(attributed_shape& input, report& made, wanted what = wanted::solids) {
+  brep data = repaired_brep(input, made, what);
+  if (what == wanted::solids)
+    join_overlapping_edges(input, data, made);
+  imprint_touching_bodies(input, data, made);
+  return data;
 }
 
 } // namespace dovetail::occt

@@ -21,18 +21,19 @@ public:
       push_back(std::move(item));
   }
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const {
+    return blocks_.empty() ? 0 : (blocks_.size() - 1) * block_size + blocks_.back()->size();
+  }
   const T& operator[](std::size_t i) const { return (*blocks_[i / block_size])[i % block_size]; }
-  const T& back() const { return (*this)[size_ - 1]; }
+  const T& back() const { return blocks_.back()->back(); }
 
-  /// The item, to be changed: only in this sequence, and before anything else is asked of it.
+  /// The item, to be changed in this sequence only. What `operator[]` gave before may be the item as it was.
   T& change(std::size_t i) { return own(i / block_size)[i % block_size]; }
 
   void push_back(T item) {
-    if (size_ % block_size == 0)
+    if (blocks_.empty() || blocks_.back()->size() == block_size)
       blocks_.push_back(std::make_shared<std::vector<T>>());
-    own(size_ / block_size).push_back(std::move(item));
-    ++size_;
+    own(blocks_.size() - 1).push_back(std::move(item));
   }
 
 private:
@@ -46,7 +47,6 @@ private:
   }
 
   std::vector<std::shared_ptr<std::vector<T>>> blocks_;
-  std::size_t size_ = 0;
 };
 
 } // namespace dovetail::virtual_topology

@@ -18,8 +18,8 @@ namespace dovetail::virtual_topology {
 std::size_t collapse_narrow_faces(editable_topology& topology, const limits& allowed,
                                   std::vector<suppressed_detail>& found);
 
-/// The same, of those alone that turn back along a face behind one of their long sides: the surface goes back
-/// on itself there, which is how a step is drawn that should not be.
+/// The same, of those alone that meet the faces behind both of their long sides at less than 10 degrees,
+/// where these faces go on along each other: the surface goes there, back and there again.
 std::size_t collapse_folded_faces(editable_topology& topology, const limits& allowed,
                                   std::vector<suppressed_detail>& found);
 
