@@ -294,7 +294,7 @@ private:
       done.quality.merge(quality.all, numbers_.first_element[at]);
       done.at_interfaces.merge(*quality.at_interfaces);
       if (quality.all.min_dihedrals.below(D == 3 ? low_dihedral_deg : low_corner_deg) > 0)
-          done.poor.merge(find_poor_elements(piece, mesh_.skeleton, sides_[p]));
+        done.poor.merge(find_poor_elements(piece, mesh_.skeleton, sides_[p]));
       hash_piece(done.hash, piece, numbers_);
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
         const auto& output = outputs_[k];

@@ -6,7 +6,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/models/occt/bounds.hpp"
 #include "dovetail/models/occt/brep.hpp"
-#include "dovetail/models/occt/heal.hpp"
+#include "dovetail/models/occt/healed_brep.hpp"
 #include "dovetail/models/occt/read.hpp"
 #include "dovetail/models/occt/repair.hpp"
 #include "dovetail/models/occt/touching_faces.hpp"

@@ -4,7 +4,6 @@
 
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/models/occt/imprint.hpp"
 #include "dovetail/models/occt/open_shells.hpp"
 #include "dovetail/models/occt/options.hpp"
 #include "dovetail/models/occt/repair.hpp"
