@@ -2,6 +2,7 @@
 /// A B-rep ready for queries: the topology as plain data and, beside it, OCCT's geometry of every entity.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/models/occt/coedge.hpp"
 #include "dovetail/models/occt/surface.hpp"
@@ -33,6 +34,16 @@ struct brep {
   std::vector<std::string> faults;   ///< what keeps the shape from being meshed, one sentence per entity
   std::vector<std::string> warnings; ///< oddities that do not
 };
+
+/// The numbers of the edges of a face, growing, without poles.
+inline std::vector<local_id> edges_of_face(const brep& data, std::size_t face) {
+  std::vector<local_id> edges;
+  for (const auto& coedge : data.topology.faces[face].coedges)
+    if (!data.topology.curves[coedge.curve].degenerate)
+      edges.push_back(coedge.curve);
+  sort_unique(edges);
+  return edges;
+}
 
 /// Moves the ends of consecutive coedges of a loop together, to their middle.
 inline void close_gaps(std::vector<coedge_curve>& loop, const face_surface& surface) {

@@ -63,9 +63,7 @@ public:
     const std::vector<local_id> fused = faces_connected_to(data, faces);
     std::vector<local_id> curves;
     for (const local_id f : fused)
-      for (const auto& coedge : data.topology.faces[f].coedges)
-        if (!data.topology.curves[coedge.curve].degenerate)
-          curves.push_back(coedge.curve);
+      append(curves, edges_of_face(data, static_cast<std::size_t>(f)));
     sort_unique(curves);
     std::vector<TopoDS_Shape> arguments;
     for (const local_id c : curves)

@@ -58,11 +58,7 @@ private:
   }
 
   bool has_overlapping_edges(std::size_t f) {
-    std::vector<local_id> curves;
-    for (const auto& coedge : data_.topology.faces[f].coedges)
-      if (!data_.topology.curves[coedge.curve].degenerate)
-        curves.push_back(coedge.curve);
-    sort_unique(curves);
+    const std::vector<local_id> curves = edges_of_face(data_, f);
     std::vector<box3> boxes;
     for (const local_id c : curves)
       boxes.push_back(boxes_[c]);
