@@ -212,6 +212,7 @@ bool replace_by_fused(attributed_shape& input, brep& data, report& made, wanted 
 }
 
 /// Whether an attempt succeeds; false where OpenCASCADE cannot cope with the shape.
+/// \param attempt tells whether it did
 template <class Attempt>
 bool succeeds(const Attempt& attempt) {
   try {
