@@ -57,8 +57,10 @@ public:
 
   /// Fuses some faces and what hangs together with them, with the edges of each face compared too: else the
   /// fuse does not compare the parts of one argument, and what several have is a part of the first one of
-  /// them. False when OCCT fails, as where an edge is as short as the tolerance. \param data the model \param
-  /// faces numbers of faces \param tolerance a length
+  /// them. False when OCCT fails, as where an edge is as short as the tolerance.
+  /// \param data the model
+  /// \param faces numbers of faces
+  /// \param tolerance a length
   bool perform_with_edges(const brep& data, const std::vector<local_id>& faces, double tolerance) {
     const std::vector<local_id> fused = faces_connected_to(data, faces);
     std::vector<local_id> curves;
