@@ -264,14 +264,11 @@ TEST_CASE("edges lie on each other over more than a point, or they do not") {
   CHECK_FALSE(overlaps(testing::pin_in_hole(0.1)));
   CHECK_FALSE(overlaps(testing::block_with_flush_bar(1e-3)));
   CHECK_FALSE(overlaps(cylinder_with_flush_bar(0.1)));
-  for (const double radius : {1.0, 20.0, 1000.0})
-    for (const double length : {0.002, 0.02, 0.2}) {
-      CAPTURE(radius);
-      CAPTURE(length);
-      const bool is_thick = length * length > 32 * 1e-6 * radius; // half way along; else it is a sliver
-      if (is_thick)
-        CHECK_FALSE(overlaps(plate_with_cusp(radius, length)));
-    }
+  for (const double radius : {1.0, 20.0, 1000.0}) {
+    CAPTURE(radius);
+    // A quarter of the way along they are as near as that, half way not.
+    CHECK_FALSE(overlaps(plate_with_cusp(radius, std::sqrt(16e-6 * radius))));
+  }
   // The corner of an opening touches the outer boundary: a point.
   const TopoDS_Shape bar =
       BRepPrimAPI_MakePrism(

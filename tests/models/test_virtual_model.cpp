@@ -348,10 +348,11 @@ TopoDS_Shape bar_with_profile(const std::vector<vec2>& profile) {
 
 } // namespace
 
-TEST_CASE("ribs, grooves, steps and teeth stay, however sharp they are") {
+TEST_CASE("undercuts, ribs, grooves, steps and teeth stay, however sharp they are") {
   const auto stays = [](const TopoDS_Shape& shape) {
     CHECK(virtual_model(model_of(shape), uniform_size(1.0)).suppressed().empty());
   };
+  stays(bar_with_profile({{0, 0}, {10, 0}, {9.13, 0.23}, {20, 0.23}})); // an undercut of 15 degrees
   for (const double half : {0.15, 0.08, 0.04}) {
     CAPTURE(half);
     for (const double height : {0.95, -0.95})
