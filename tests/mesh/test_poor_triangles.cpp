@@ -1,6 +1,7 @@
 /// Why triangles have small angles.
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/mesh/poor_triangles.hpp"
+#include "dovetail/mesh/quality.hpp"
 
 #include <doctest/doctest.h>
 
@@ -55,7 +56,14 @@ struct drawn_piece {
   poor_elements poor() const {
     std::vector<local_id> listed(skeleton.sides.size());
     std::iota(listed.begin(), listed.end(), local_id{0});
-    return find_poor_elements(piece, skeleton, listed);
+    const auto found = find_poor_elements(piece, skeleton, listed);
+    const auto sum = [](const auto& counts) {
+      return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+    };
+    const auto quality = measure_quality(piece.mesh);
+    CHECK(sum(found.low) == quality.min_dihedrals.below(low_corner_deg));
+    CHECK(sum(found.bad) == quality.min_dihedrals.below(bad_corner_deg));
+    return found;
   }
 
 private:

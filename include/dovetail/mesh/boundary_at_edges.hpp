@@ -6,6 +6,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/mesh/piece_numbers.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 
 #include <algorithm>
@@ -27,13 +28,7 @@ public:
   boundary_at_edges(const mesh_piece& piece, const fine_skeleton& skeleton, std::span<const local_id> listed,
                     std::span<const simplex<3>> elements, double small_deg)
       : small_deg_(small_deg), in_wall_(vertices_in_walls(piece, skeleton, elements)) {
-    std::vector<std::pair<local_id, local_id>> numbers; // in the skeleton and in the piece
-    for (std::size_t v = 0; v < piece.skeleton_points.size(); ++v)
-      numbers.push_back({piece.skeleton_points[v], static_cast<local_id>(v)});
-    sort_all(numbers);
-    const auto in_piece = [&](local_id v) {
-      return std::lower_bound(numbers.begin(), numbers.end(), std::pair(v, local_id{0}))->second;
-    };
+    const piece_numbers numbers(piece.skeleton_points);
     for (const local_id s : listed) {
       const auto side = static_cast<std::size_t>(s);
       const local_id face = skeleton.side_hosts[side];
@@ -41,7 +36,7 @@ public:
       const double angle = smallest_corner_angle(corners(std::span<const vec3>(skeleton.points), t));
       simplex<2> own;
       for (std::size_t k = 0; k < 3; ++k)
-        own[k] = in_piece(t[k]);
+        own[k] = numbers[t[k]];
       triangles_.push_back({sorted_vertices(own), angle, face});
       for (std::size_t k = 0; k < 3; ++k)
         flaps_.push_back(

@@ -5,6 +5,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/mesh/piece_numbers.hpp"
 #include "dovetail/mesh/poor_triangles.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 
@@ -16,7 +17,6 @@
 #include <limits>
 #include <span>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 namespace dovetail {
@@ -37,15 +37,10 @@ struct poor_triangle {
 inline std::vector<poor_triangle> find_poor_triangles(const simplicial_mesh<2>& mesh) {
   std::vector<poor_triangle> found;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
-    const auto p = corners(span_of(mesh.points), mesh.elements[e]);
-    poor_triangle worst{e, 0, low_corner_deg};
-    for (std::size_t k = 0; k < 3; ++k)
-      if (const double angle =
-              degrees_per_radian * angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-          angle < worst.angle_deg)
-        worst = {e, k, angle};
-    if (worst.angle_deg < low_corner_deg)
-      found.push_back(worst);
+    const auto angles = dihedral_angles(corners(span_of(mesh.points), mesh.elements[e]));
+    const auto least = std::min_element(angles.begin(), angles.end());
+    if (*least < low_corner_deg)
+      found.push_back({e, static_cast<std::size_t>(least - angles.begin()), *least});
   }
   return found;
 }
@@ -129,17 +124,11 @@ private:
   static std::vector<curve_of_side> curves_of_sides(const simplicial_piece<2>& piece,
                                                     const simplicial_skeleton<2>& skeleton,
                                                     std::span<const local_id> listed) {
-    std::vector<std::array<local_id, 2>> numbers; // in the skeleton and in the piece
-    for (std::size_t v = 0; v < piece.skeleton_points.size(); ++v)
-      numbers.push_back({piece.skeleton_points[v], static_cast<local_id>(v)});
-    sort_all(numbers);
-    const auto in_piece = [&](local_id v) {
-      return (*std::lower_bound(numbers.begin(), numbers.end(), std::array{v, local_id{0}}))[1];
-    };
+    const piece_numbers numbers(piece.skeleton_points);
     std::vector<curve_of_side> curves;
     for (const local_id s : listed) {
       const auto& [a, b] = skeleton.sides[s];
-      curves.push_back({sorted_vertices(simplex<1>{in_piece(a), in_piece(b)}), skeleton.side_hosts[s]});
+      curves.push_back({sorted_vertices(simplex<1>{numbers[a], numbers[b]}), skeleton.side_hosts[s]});
     }
     sort_all(curves, [](const auto& a, const auto& b) { return a.edge < b.edge; });
     return curves;
