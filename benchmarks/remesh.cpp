@@ -5,6 +5,7 @@
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -50,7 +51,7 @@ void run_file(const char* path, double fraction) {
   const double size = read.model.bounds().diagonal() / fraction;
   const double start = processor_seconds();
   const auto made = background::coarse_surface(
-      read.model, [size](vec3) { return size; }, {}, parallel::serial{});
+      read.model, [size](vec3) { return size; }, {}, parallel::serial{}, remesh::patch_remesher{});
   print(path, made.summary, processor_seconds() - start);
 }
 

@@ -25,7 +25,8 @@ const auto uniform = [](double h) { return [h](vec3) { return h; }; };
 template <class G>
 background::coarse_surface_result mesh(const G& model, double size,
                                        const background::coarse_surface_parameters& parameters = {}) {
-  return background::coarse_surface(model, uniform(size), parameters, parallel::serial{});
+  return background::coarse_surface(model, uniform(size), parameters, parallel::serial{},
+                                    remesh::patch_remesher{});
 }
 
 /// Closed, every edge in two triangles, parameters and hosts right.
@@ -172,8 +173,10 @@ TEST_CASE("where a caller wants it finer edges get small, and faces out of reach
 
 TEST_CASE("executors give the same mesh") {
   const capped_cylinder model(3);
-  const auto one = background::coarse_surface(model, uniform(0.3), {}, parallel::serial{});
-  const auto many = background::coarse_surface(model, uniform(0.3), {}, parallel::threads{2});
+  const auto one =
+      background::coarse_surface(model, uniform(0.3), {}, parallel::serial{}, remesh::patch_remesher{});
+  const auto many =
+      background::coarse_surface(model, uniform(0.3), {}, parallel::threads{2}, remesh::patch_remesher{});
   CHECK(one.surface.mesh.points == many.surface.mesh.points);
   CHECK(one.surface.mesh.elements == many.surface.mesh.elements);
 }

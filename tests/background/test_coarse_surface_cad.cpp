@@ -1,6 +1,7 @@
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
 #include "surface_checks.hpp"
 
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -23,7 +24,7 @@ constexpr double pi = std::numbers::pi;
 
 background::coarse_surface_result mesh(const occt_model& model, double size) {
   return background::coarse_surface(
-      model, [size](vec3) { return size; }, {}, parallel::serial{});
+      model, [size](vec3) { return size; }, {}, parallel::serial{}, remesh::patch_remesher{});
 }
 
 void check_primitive(const TopoDS_Shape& shape, double size, double volume, double error) {

@@ -3,6 +3,7 @@
 #include "dovetail/models/occt/shape.hpp"
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/parallel/serial.hpp"
+#include "dovetail/remesh/patch_remesher.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "models/model_checks.hpp"
 #include "models/triangulation_checks.hpp"
@@ -131,7 +132,8 @@ void check_healed(const occt_read_result& read, const std::string& note) {
   const auto& warnings = read.report.warnings;
   CHECK_MESSAGE(std::find(warnings.begin(), warnings.end(), note) != warnings.end(),
                 testing::joined(warnings));
-  CHECK_NOTHROW(background::coarse_surface(read.model, uniform_size(1), {}, parallel::serial{}));
+  CHECK_NOTHROW(background::coarse_surface(read.model, uniform_size(1), {}, parallel::serial{},
+                                           remesh::patch_remesher{}));
 }
 
 } // namespace
@@ -146,7 +148,8 @@ TEST_CASE("so are edges that are called poles, however far they go") {
   const occt_read_result read = occt_shape_from(cylinder_with_false_poles());
   check_healed(read, "face 0: edges without a curve in space that are no poles were left out");
   CHECK(read.model.topology().faces[0].coedges.size() == 4);
-  CHECK_NOTHROW(background::coarse_surface(read.model, uniform_size(0.2), {}, parallel::serial{}));
+  CHECK_NOTHROW(background::coarse_surface(read.model, uniform_size(0.2), {}, parallel::serial{},
+                                           remesh::patch_remesher{}));
 }
 
 TEST_CASE("so is one that is short enough for a pole, where the boundary runs back along it") {

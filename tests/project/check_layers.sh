@@ -1,6 +1,6 @@
 #!/bin/bash
-# A header includes its own module and those that cmake/modules.txt lets it include. In a module of several layers, which is the
-# core, a file includes its own folder, lower layers, and of the folders of its own layer what says what a role is: its concepts,
+# A header includes its own module and those that cmake/modules.txt lets it include. In a module of several layers, the core
+# and the mesher, a file includes its own folder, lower layers, and of the folders of its own layer what says what a role is: its concepts,
 # and the models of them behind one type (any_*). In the core these are data (1) and tools (2), which may build on each other
 # within their layer, and stages (3), which do not include each other: the pipeline, a module of its own, joins them.
 # Other libraries are included only where the list says so: all else compiles with nothing installed but a compiler.
