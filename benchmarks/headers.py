@@ -31,7 +31,7 @@ int main(int count, char** words) {
     std::cout << std::regex_replace(words[i], std::regex("([a-z]+)[.]([0-9]*)"), "$2") << std::endl;
 }
 """
-WAYS = {"header-only": [], "compiled": ["-DDOVETAIL_COMPILED", "-DDOVETAIL_COMPILED_OCCT"]}
+WAYS = {"header-only": [], "compiled": ["-DDOVETAIL_COMPILED", "-DDOVETAIL_COMPILED_OCCT", "-DDOVETAIL_COMPILED_CGAL"]}
 
 
 def default_units():

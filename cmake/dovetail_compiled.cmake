@@ -1,6 +1,7 @@
 # dovetail::compiled: what no policy touches, compiled once. Every x.ipp of the library defines what x.hpp beside it
-# declares; a folder's are compiled together. Those that need Open CASCADE are a library of their own,
-# dovetail::compiled_occt. Whoever links one of these gets the declarations alone.
+# declares; a folder's are compiled together, and each alone that uses CGAL, since it takes gigabytes. Those that need Open
+# CASCADE or CGAL are libraries of their own, dovetail::compiled_occt and dovetail::compiled_cgal. Whoever links one of these
+# gets the declarations alone.
 option(DOVETAIL_BUILD_COMPILED "Build the compiled library beside the header-only one" ${PROJECT_IS_TOP_LEVEL})
 
 set(dovetail_compiled_targets "")
@@ -14,6 +15,9 @@ function(dovetail_compiled_library name)
   set(sources "")
   foreach(file IN LISTS arg_FILES)
     cmake_path(GET file PARENT_PATH folder)
+    if(name STREQUAL "compiled_cgal")
+      cmake_path(GET file STEM folder)
+    endif()
     string(REPLACE "/" "_" folder "${folder}")
     string(APPEND includes_of_${folder} "#include \"dovetail/${file}\"\n")
     list(APPEND folders ${folder})
@@ -35,13 +39,22 @@ endfunction()
 file(GLOB_RECURSE definitions CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}/include/dovetail"
   "${PROJECT_SOURCE_DIR}/include/dovetail/*.ipp")
 list(SORT definitions)
-set(of_occt ${definitions})
 set(uses_occt "^models/occt|^experiments/builtin_models")
-list(FILTER of_occt INCLUDE REGEX "${uses_occt}")
-list(FILTER definitions EXCLUDE REGEX "${uses_occt}")
+set(uses_cgal "^adapters/cgal")
+foreach(adapter IN ITEMS occt cgal)
+  set(of_${adapter} ${definitions})
+  list(FILTER of_${adapter} INCLUDE REGEX "${uses_${adapter}}")
+  list(FILTER definitions EXCLUDE REGEX "${uses_${adapter}}")
+endforeach()
 
 dovetail_compiled_library(compiled LINKS dovetail DEFINITION DOVETAIL_COMPILED FILES ${definitions})
-if(TARGET dovetail_occt AND of_occt)
-  dovetail_compiled_library(compiled_occt
-    LINKS dovetail_compiled dovetail_occt DEFINITION DOVETAIL_COMPILED_OCCT FILES ${of_occt})
+foreach(adapter IN ITEMS occt cgal)
+  if(TARGET dovetail_${adapter} AND of_${adapter})
+    string(TOUPPER "DOVETAIL_COMPILED_${adapter}" definition)
+    dovetail_compiled_library(compiled_${adapter}
+      LINKS dovetail_compiled dovetail_${adapter} DEFINITION ${definition} FILES ${of_${adapter}})
+  endif()
+endforeach()
+if(TARGET dovetail_compiled_cgal)
+  target_compile_options(dovetail_compiled_cgal PRIVATE ${dovetail_cgal_options})
 endif()

@@ -15,7 +15,7 @@ shift 3
 unit=together_${folder//./umbrella}
 unit=${unit//\//_}
 trap 'rm -f "$unit".cpp "$unit".o' EXIT
-with_library=(-DDOVETAIL_COMPILED -DDOVETAIL_COMPILED_OCCT)
+with_library=(-DDOVETAIL_COMPILED -DDOVETAIL_COMPILED_OCCT -DDOVETAIL_COMPILED_CGAL)
 compile() { # Prints what the compiler says and what the header defines that is not inline; fails when it does either.
   "$@" "${flags[@]}" -c "$unit.cpp" -o "$unit.o" 2>&1 &&
     ! nm --demangle --extern-only --defined-only "$unit.o" | grep -v ' [VWu] '

@@ -43,8 +43,8 @@ check_small() { # name, options
 install_moved "$work/build" "$work/elsewhere"
 check_consumer "$work/elsewhere" "$work/consumer"
 check_small installed -DCMAKE_PREFIX_PATH="$work/elsewhere"
-# The core alone has all that its headers need; every module is a component.
-check_small core -DCMAKE_PREFIX_PATH="$work/elsewhere" -DCOMPONENT=core
+# A module has all that its headers need; every module is a component.
+check_small partitioners -DCMAKE_PREFIX_PATH="$work/elsewhere" -DCOMPONENT=partitioners
 modules=$(sed -nE 's/^has *\| *([a-z]+) .*/\1/p' "$source_directory/cmake/modules.txt" | grep -v adapters | uniq | paste -sd ';')
 check_small modules -DCMAKE_PREFIX_PATH="$work/elsewhere" -DCOMPONENT="$modules"
 
@@ -52,7 +52,7 @@ check_small modules -DCMAKE_PREFIX_PATH="$work/elsewhere" -DCOMPONENT="$modules"
 check_small subfolder -DSUBFOLDER="$source_directory"
 check_small subfolder_modules -DSUBFOLDER="$source_directory" -DCOMPONENT="$modules"
 "$cmake" --build "$work/small_subfolder" --target help >"$work/targets"
-if grep -E "(^|[ /])(dovetail_compiled|dovetail|test_[a-z_]+|example_[a-z0-9_]+|install)(:|$| )" "$work/targets"; then
+if grep -E "(^|[ /])(dovetail_compiled|dovetail|dovetail_driver_parts|tests?_[a-z0-9_]+|example_[a-z0-9_]+|install)(:|$| )" "$work/targets"; then
   echo "the targets above are not wanted in a project that has the library as a subfolder"
   exit 1
 fi
@@ -64,6 +64,10 @@ if [[ -n $compiled_build ]]; then
   fi
   check_consumer "$work/compiled" "$work/compiled_consumer" -DEXTRA_COMPONENT=compiled_occt
   check_small compiled -DCMAKE_PREFIX_PATH="$work/compiled" -DCOMPONENT=compiled
+  if compgen -G "$work/compiled/lib*/libdovetail_compiled_cgal.a" >/dev/null; then
+    check_small compiled_cgal -DCMAKE_PREFIX_PATH="$work/compiled" -DCOMPONENT=compiled_cgal
+    "$work/small_compiled_cgal/cgal_consumer"
+  fi
   if nm -C "$work/compiled_consumer/CMakeFiles/consumer.dir/main.cpp.o" | grep " W dovetail::occt_shape_from"; then
     echo "the program that links the compiled library has compiled its functions again"
     exit 1
