@@ -24,7 +24,7 @@ void require_finite(const std::vector<io::mesh_field>& fields, const std::string
 }
 
 /// All fields as one, whose components are theirs: each place is searched for once.
-io::mesh_field joined(const std::vector<io::mesh_field>& fields, std::size_t places) {
+io::mesh_field joined_field(const std::vector<io::mesh_field>& fields, std::size_t places) {
   io::mesh_field all{{}, {}, 0};
   for (const auto& field : fields)
     all.components += field.components;
@@ -83,12 +83,12 @@ mesh_fields carried_over(const mesh_fields& fields, const simplicial_mesh<D>& fr
                          const simplicial_mesh<D>& to) {
   mesh_fields carried;
   if (!fields.at_points.empty()) {
-    const auto all = joined(fields.at_points, from.points.size());
+    const auto all = joined_field(fields.at_points, from.points.size());
     carried.at_points =
         parted(transferred_to_points<D>(from, all.values, to.points, all.components), fields.at_points);
   }
   if (!fields.in_elements.empty()) {
-    const auto all = joined(fields.in_elements, from.elements.size());
+    const auto all = joined_field(fields.in_elements, from.elements.size());
     carried.in_elements =
         parted(transferred_to_elements<D>(from, all.values, to, all.components), fields.in_elements);
   }

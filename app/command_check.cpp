@@ -205,7 +205,7 @@ std::optional<int> check_streamed(const std::filesystem::path& file,
 }
 
 /// What the figures are not of.
-void warn_of_part(const std::string& file, const std::string& elsewhere) {
+void warn_of_elsewhere(const std::string& file, const std::string& elsewhere) {
   if (!elsewhere.empty())
     std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), elsewhere.c_str());
 }
@@ -233,7 +233,7 @@ std::optional<int> measure_streamed(const std::filesystem::path& file, const sta
   if (!for_each_piece_of_any(file, add, io::element_order::any))
     return std::nullopt;
   const std::string name = name_of(file, files);
-  warn_of_part(name, all.elsewhere(nodes.count()));
+  warn_of_elsewhere(name, all.elsewhere(nodes.count()));
   return print_quality(quality, interfaces.read_again(file), points.count(), 3, name, options);
 }
 
@@ -367,7 +367,7 @@ int run_stats(const stats_options& options) {
     return *result;
   return with_mesh_of(
       file, read_any_mesh(file, io::element_order::any), [&]<int D>(const whole_mesh<D>& read) {
-        warn_of_part(read.name, read.elsewhere);
+        warn_of_elsewhere(read.name, read.elsewhere);
         return print_quality(measure_quality(read.mesh), found_at_interfaces(read.mesh, read.subdomains),
                              read.mesh.points.size(), D, read.name, options);
       });

@@ -19,7 +19,7 @@
 namespace dovetail::app {
 namespace {
 
-constexpr std::string_view part = ".part";
+constexpr std::string_view part_ending = ".part";
 
 /// A pipe can be read once, and not here.
 bool can_be_looked_into(const std::filesystem::path& file) {
@@ -95,8 +95,8 @@ private:
   bool is_written(const std::string& name) const {
     return std::any_of(names_.begin(), names_.end(), [&](const std::string& pattern) {
       return matches(pattern.c_str(), name.c_str()) ||
-             (name.ends_with(part) &&
-              matches(pattern.c_str(), name.substr(0, name.size() - part.size()).c_str()));
+             (name.ends_with(part_ending) &&
+              matches(pattern.c_str(), name.substr(0, name.size() - part_ending.size()).c_str()));
     });
   }
 

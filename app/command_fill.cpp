@@ -79,7 +79,7 @@ void name_materials(const surface_file& given, const filled_surface& made, io::l
   std::erase_if(whole.material_names, [&](const auto& named) { return uses[named.second] > 1; });
 }
 
-io::loaded_mesh whole_mesh(surface_file given, filled_surface made) {
+io::loaded_mesh surface_with_inside(surface_file given, filled_surface made) {
   io::loaded_mesh whole;
   name_materials(given, made, whole);
   whole.mesh = std::move(made.mesh);
@@ -156,7 +156,7 @@ int run_fill(const filling_options& options) {
                                .quality = made.quality,
                                .summary = made.summary};
   collect_warnings(made.summary, warnings);
-  const io::loaded_mesh whole = whole_mesh(std::move(given), std::move(made));
+  const io::loaded_mesh whole = surface_with_inside(std::move(given), std::move(made));
   write_mesh_file(whole, options.out);
   if (!options.report.empty())
     write_quality_report(figures.quality, 3, static_cast<std::int64_t>(whole.mesh.points.size()),

@@ -484,7 +484,8 @@ private:
     figures_.warnings.push_back(
         std::to_string(bad) + elements + " under " + std::to_string(limits_of(D).bad) +
         (bad == 1 ? " degrees is in " : " degrees are in ") + (D == 3 ? "walls thinner" : "faces narrower") +
-        " than the size" + where + ": smaller sizes there put more elements across");
+        " than the size" + where + ": smaller sizes there put more elements across, except where " +
+        (D == 3 ? "a wall ends in an edge" : "a face ends in a point"));
   }
 
   /// The mesh is complete before: who stops this or kills it loses the checksums only.

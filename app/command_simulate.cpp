@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "entire_scheme.hpp"
 #include "failure.hpp"
+#include "fixed.hpp"
 #include "paper_figures.hpp"
 #include "terminal_progress.hpp"
 
@@ -62,12 +63,6 @@ public:
 private:
   std::size_t count_;
 };
-
-std::string fixed(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
-}
 
 /// What the paper measured of its Algorithm 1 with as many cores.
 void print_paper(const std::vector<std::int64_t>& workers) {

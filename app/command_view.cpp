@@ -246,7 +246,7 @@ void say_marks(const view_marks& marks, const view_options& options, const view_
 }
 
 /// Of a section, which has few and would have gaps.
-constexpr std::size_t all_elements = std::numeric_limits<std::size_t>::max() / 4;
+constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max() / 4;
 
 /// A mesh as far as it is in memory.
 class shown_mesh {
@@ -278,7 +278,7 @@ public:
     std::size_t wanted = 0;
     if (pieces_ && (wishes.cut || wishes.under))
       wanted = pieces_->take_elements(
-          wishes.explode, wishes.under ? most_elements_drawn : all_elements,
+          wishes.explode, wishes.under ? most_elements_drawn : no_limit,
           [&](float angle, const std::array<vec3, 4>& corners) { return is_drawn(wishes, angle, corners); });
     return pieces_ || !wishes.under ? wanted : elements_under(whole_, *wishes.under);
   }

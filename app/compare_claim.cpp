@@ -10,7 +10,7 @@
 namespace dovetail::app {
 namespace {
 
-using figure = std::function<double(const comparison_row&)>;
+using row_figure = std::function<double(const comparison_row&)>;
 
 /// From the smallest to the largest that is known; empty: none is.
 std::string range_of(const std::vector<double>& values, int decimals) {
@@ -28,7 +28,7 @@ std::string range_of(const std::vector<double>& values, int decimals) {
 
 using side_of_pair = const comparison_row* simplified_pair::*;
 
-std::string range_of(const std::vector<simplified_pair>& pairs, side_of_pair side, const figure& of,
+std::string range_of(const std::vector<simplified_pair>& pairs, side_of_pair side, const row_figure& of,
                      int decimals) {
   std::vector<double> values;
   for (const simplified_pair& pair : pairs)
@@ -38,10 +38,10 @@ std::string range_of(const std::vector<simplified_pair>& pairs, side_of_pair sid
 
 std::string sentence_on_angles(const std::vector<simplified_pair>& pairs, const std::string& mesh,
                                interface_row comparison_row::*of_mesh) {
-  const figure smallest = [&](const comparison_row& row) { // that there is, or NaN
+  const row_figure smallest = [&](const comparison_row& row) { // that there is, or NaN
     return std::fmin((row.*of_mesh).min_face_angle, (row.*of_mesh).min_dihedral);
   };
-  const figure under = [&](const comparison_row& row) {
+  const row_figure under = [&](const comparison_row& row) {
     return static_cast<double>((row.*of_mesh).under_threshold);
   };
   const std::string with = range_of(pairs, &simplified_pair::with, smallest, 1);
@@ -92,7 +92,7 @@ std::vector<std::string> answers_of(const comparison& compared, const std::vecto
   if (const std::string cut = range_of(changes, 1); !cut.empty())
     answers.push_back("The cut, in " + std::string(compared.dimension == 3 ? "faces" : "edges") +
                       " of the background mesh, changes by " + cut + " percent.");
-  const figure imbalance = [](const comparison_row& row) { return row.imbalance; };
+  const row_figure imbalance = [](const comparison_row& row) { return row.imbalance; };
   answers.push_back("The imbalance, largest subdomain over the average in elements, is " +
                     range_of(pairs, &simplified_pair::with, imbalance, 3) + " with and " +
                     range_of(pairs, &simplified_pair::without, imbalance, 3) + " without.");

@@ -76,7 +76,7 @@ std::string claim(const comparison& compared) {
                    "interfaces, so the finished mesh may have smaller angles than the background mesh.");
 }
 
-std::string table(const comparison& compared, const std::vector<table_column>& columns) {
+std::string table_html(const comparison& compared, const std::vector<table_column>& columns) {
   std::string head, body;
   for (const auto& [name, which] : all_policies)
     if (varies(compared, which))
@@ -179,10 +179,6 @@ std::string plots(const comparison& compared) {
                    std::to_string(words.low) + ") are what matters, and are few.");
 }
 
-void put_in(std::string& page, const std::string& place, const std::string& text) {
-  page.replace(page.find(place), place.size(), text);
-}
-
 } // namespace
 
 std::string page_html(const comparison& compared, const comparison_pictures& pictures) {
@@ -191,9 +187,9 @@ std::string page_html(const comparison& compared, const comparison_pictures& pic
                                   [](const comparison_row& row) { return row.background_reused; });
   const std::string body =
       element("h1", {}, title) + introduction(compared) + claim(compared) + heading("Results") +
-      table(compared, result_columns(compared.dimension)) + failures(compared) +
+      table_html(compared, result_columns(compared.dimension)) + failures(compared) +
       element("p", {{"id", "sorts"}, {"hidden", "hidden"}}, "A click on a column's head sorts by it.") +
-      meanings(compared) + heading("Seconds") + table(compared, time_columns()) +
+      meanings(compared) + heading("Seconds") + table_html(compared, time_columns()) +
       (reused ? paragraph("The background mesh depends on the mesher alone. It was made once for each; its "
                           "time is repeated in every row and contained in every total.")
               : "") +

@@ -15,16 +15,16 @@
 namespace dovetail::app {
 namespace {
 
-constexpr int width = 1120; // the page shows them at half of that, a browser's zoom all of it
-constexpr int height = 800;
+constexpr int picture_width = 1120; // the page shows them at half of that, a browser's zoom all of it
+constexpr int picture_height = 800;
 constexpr rgb red{205, 40, 40};
 constexpr rgb orange{240, 150, 30};
 constexpr rgb blue{70, 120, 200};
-constexpr rgb outline{120, 125, 135};
+constexpr rgb drawn_outline{120, 125, 135};
 
 raster_image rendered(const raster_scene& scene, vec3 from = oblique_direction()) {
-  const raster_view view = fitted(view_from(from), scene, width, height);
-  return render(scene, view, width, height, 2);
+  const raster_view view = fitted(view_from(from), scene, picture_width, picture_height);
+  return render(scene, view, picture_width, picture_height, 2);
 }
 
 vec3 center_of(const std::array<vec3, 3>& p) {
@@ -66,13 +66,13 @@ void add_with_edges(raster_scene& scene, const std::array<vec3, 3>& p, rgb colou
 /// The edges on CAD curves.
 void add_outline(raster_scene& scene, const fine_skeleton& skeleton) {
   for (const auto& [a, b] : skeleton.curve_edges)
-    scene.lines.push_back({{skeleton.points[a], skeleton.points[b]}, outline, 1.6});
+    scene.lines.push_back({{skeleton.points[a], skeleton.points[b]}, drawn_outline, 1.6});
 }
 
 void add_outline(raster_scene& scene, const simplicial_skeleton<2>& skeleton) {
   for (std::size_t e = 0; e < skeleton.sides.size(); ++e)
     if (skeleton.side_hosts[e] != no_id)
-      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), outline, 1.6});
+      scene.lines.push_back({corners(std::span(skeleton.points), skeleton.sides[e]), drawn_outline, 1.6});
 }
 
 /// Without perspective a line moved towards the viewer is seen at the same place, and nothing hides it.

@@ -13,10 +13,10 @@ namespace dovetail::app {
 namespace {
 
 // Lengths are pixels, x to the right and y down.
-constexpr double width = 940;
+constexpr double plot_width = 940;
 constexpr const char* faint = "#ddd";
 constexpr const char* quiet = "#777";
-constexpr const char* dark = "#333";
+constexpr const char* dark_grey = "#333";
 
 constexpr std::pair<const char*, double stage_seconds::*> stages[] = {
     {"background mesh", &stage_seconds::background}, {"simplification", &stage_seconds::simplification},
@@ -34,7 +34,7 @@ const char* colour(std::size_t k) {
 }
 
 std::string label(double x, double y, const std::string& text, const char* anchor = "start",
-                  const char* fill = dark) {
+                  const char* fill = dark_grey) {
   return element("text", {{"x", x}, {"y", y}, {"text-anchor", anchor}, {"fill", fill}}, escaped(text));
 }
 std::string line(double x1, double y1, double x2, double y2, const char* stroke = faint) {
@@ -62,8 +62,8 @@ std::string disc(double x, double y, double r, const char* stroke, bool filled,
 }
 std::string drawing(const std::string& what, double height, const std::string& content) {
   return element("svg",
-                 {{"viewBox", "0 0 " + fixed(width, 0) + " " + fixed(height, 0)},
-                  {"width", width},
+                 {{"viewBox", "0 0 " + fixed(plot_width, 0) + " " + fixed(height, 0)},
+                  {"width", plot_width},
                   {"role", "img"},
                   {"aria-label", what},
                   {"font-family", "system-ui, sans-serif"},
@@ -120,7 +120,7 @@ plot_legend legend(double left, const std::vector<std::string>& names) {
   double x = left, y = 6;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const double length = 24 + 7.2 * static_cast<double>(names[k].size());
-    if (x + length > width) {
+    if (x + length > plot_width) {
       x = left;
       y += 20;
     }
@@ -161,7 +161,7 @@ std::string plot_of_times(const comparison& compared) {
     stage_names.emplace_back(name);
   const double left = 20 + width_of(names), top = 48, height = 20;
   const double bottom = top + height * static_cast<double>(rows.size());
-  const plot_axis x{1.02 * longest_time(rows), left, width - 60};
+  const plot_axis x{1.02 * longest_time(rows), left, plot_width - 60};
   std::string parts = legend(10, stage_names).parts + x_axis(x, top, bottom, "seconds");
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const double y = top + height * static_cast<double>(r) + 3;
@@ -193,11 +193,11 @@ std::string plot_of_quality(const comparison& compared) {
   }
   const double left = 80, height = 400;
   const plot_legend names = legend(left, meshings);
-  const plot_axis x{1.05 * longest_time(rows), left, width - 30};
+  const plot_axis x{1.05 * longest_time(rows), left, plot_width - 30};
   const plot_axis y{log_of(1.5 * most), height - 50, names.height + 36};
   std::string parts =
       names.parts + x_axis(x, y.last, y.first, "seconds in total") +
-      log_axis(y, left, width - 30, "elements under " + std::to_string(low) + " degrees per million");
+      log_axis(y, left, plot_width - 30, "elements under " + std::to_string(low) + " degrees per million");
   for (const comparison_row* row : rows)
     parts += disc(x(row->seconds.total), y(log_of(low_of(*row))), 5.5,
                   colour(place_of(meshing_of(*row), meshings)), row->policies.is_simplified(),
@@ -228,13 +228,13 @@ std::string plot_of_angles(const comparison& compared) {
       most = std::max(most, share(*row, degree));
   const double left = 80, height = 400;
   const plot_legend names = legend(left, meshings);
-  const plot_axis x{static_cast<double>(words.best + 1), left, width - 30};
+  const plot_axis x{static_cast<double>(words.best + 1), left, plot_width - 30};
   const plot_axis y{log_of(1.5 * most), height - 50, names.height + 36};
   std::string parts =
       names.parts + bar(x(0), y.last, x(words.bad) - x(0), y.first - y.last, "#fbe3e0") +
       bar(x(words.bad), y.last, x(words.low) - x(words.bad), y.first - y.last, "#fdf1dc") +
       x_axis(x, y.last, y.first, "smallest " + std::string(words.angle) + " of an element (degrees)") +
-      log_axis(y, left, width - 30, "elements per million and degree");
+      log_axis(y, left, plot_width - 30, "elements per million and degree");
   for (std::size_t r = 0; r < first.size(); ++r) {
     std::string points;
     for (int degree = 0; degree < words.best; ++degree)
@@ -274,7 +274,7 @@ std::string plot_of_interfaces(const comparison& compared, const std::vector<sim
         for (const double angle : {(row->*mesh.row).min_face_angle, (row->*mesh.row).min_dihedral})
           widest = std::fmax(widest, 10 * std::ceil(angle / 10)); // NaN is passed over
   }
-  const double left = 60 + width_of(names), panel = (width - left - 60) / 2, height = 46, top = 62;
+  const double left = 60 + width_of(names), panel = (plot_width - left - 60) / 2, height = 46, top = 62;
   const double bottom = top + height * static_cast<double>(pairs.size());
   std::string parts = disc(left + 6, 14, 5, colour(0), true) + label(left + 18, 18, "with simplification") +
                       disc(left + 156, 14, 5, colour(0), false) + label(left + 168, 18, "without");

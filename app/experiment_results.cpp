@@ -24,14 +24,14 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 double sum_of(const summed& pointers, const json& document) {
   double sum = 0;
   for (const std::string& text : pointers) {
     const json::json_pointer pointer(text);
     if (!document.contains(pointer) || document.at(pointer).is_null())
-      return nothing;
+      return not_measured;
     sum += document.at(pointer).get<double>();
   }
   return sum;
@@ -47,7 +47,7 @@ bool have_same_workers(const std::vector<run_result>& runs) {
 }
 
 std::vector<double> over_first(std::vector<double> values) {
-  const double first = values.empty() ? nothing : values.front();
+  const double first = values.empty() ? not_measured : values.front();
   for (double& value : values)
     value = first / value;
   return values;
@@ -75,11 +75,11 @@ std::pair<double, double> mean_and_margin(std::vector<double> values) {
   constexpr double quantiles[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262};
   const std::size_t count = values.size();
   if (count == 0)
-    return {nothing, nothing};
+    return {not_measured, not_measured};
   const auto n = static_cast<double>(count);
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
   if (count == 1)
-    return {mean, nothing};
+    return {mean, not_measured};
   double squares = 0;
   for (const double value : values)
     squares += (value - mean) * (value - mean);
@@ -268,7 +268,7 @@ failure_summary failures_of(const std::vector<experiment_result>& results) {
 
 double value_of(const figure& wanted, const json& document) {
   if (wanted.sum.empty() || document.is_null())
-    return nothing;
+    return not_measured;
   double value = sum_of(wanted.sum, document) - sum_of(wanted.less, document);
   for (const summed& factor : wanted.over)
     value /= sum_of(factor, document);
@@ -292,7 +292,7 @@ row_values values_of(const experiment_row& row, const experiment_result& result)
   if (!row.over_first)
     return values;
   if (have_same_workers(result.runs))
-    std::fill(values.measured.begin(), values.measured.end(), nothing);
+    std::fill(values.measured.begin(), values.measured.end(), not_measured);
   return {over_first(std::move(values.paper)), over_first(std::move(values.measured)),
           over_first(std::move(values.simulated)), std::move(values.margin)};
 }

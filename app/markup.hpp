@@ -2,25 +2,18 @@
 /// HTML and SVG as text, which is well-formed as XML too.
 #pragma once
 
+#include "fixed.hpp"
 #include "json_text.hpp"
 
 #include "dovetail/files/vtk_xml_output.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 
 namespace dovetail::app {
-
-/// A number with so many decimals.
-inline std::string fixed(double number, int decimals = 1) {
-  char text[400];
-  std::snprintf(text, sizeof text, "%.*f", decimals, number);
-  return text;
-}
 
 /// Any bytes as content or an attribute's value: what is no text is replaced by the sign for that.
 inline std::string escaped(const std::string& text) {
@@ -64,6 +57,11 @@ inline std::string element(const std::string& name, std::initializer_list<markup
 
 inline std::string paragraph(const std::string& text) {
   return element("p", {}, escaped(text));
+}
+
+/// Puts a text in the place of the first such mark.
+inline void put_in(std::string& page, const std::string& mark, const std::string& text) {
+  page.replace(page.find(mark), mark.size(), text);
 }
 
 } // namespace dovetail::app

@@ -18,8 +18,8 @@
 #include "dovetail/simplification/all.hpp"
 
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
-#include "background_cgal.hpp"
-#include "improver_cgal.hpp"
+#include "dovetail/adapters/cgal_improver.hpp"
+#include "dovetail/adapters/cgal_mesh_3.hpp"
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_GMSH
 #include "dovetail/adapters/gmsh_delaunay.hpp"
@@ -143,7 +143,8 @@ std::vector<named_improver> improvers() {
   known.emplace_back(improvement::netgen{}, "netgen");
 #endif
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
-  known.push_back(cgal_improver());
+  // CGAL 5.5 flips some pieces without end; others take seconds. A piece beyond the limit stays as it was.
+  known.emplace_back(improvement::cgal{.limit_seconds = 30}, "cgal");
 #endif
   return known;
 }
@@ -151,7 +152,7 @@ std::vector<named_improver> improvers() {
 std::vector<any_line_keeping_mesher> background_meshers() {
   std::vector<any_line_keeping_mesher> known{any_line_keeping_mesher::none("native")};
 #ifdef DOVETAIL_DRIVER_WITH_CGAL
-  known.push_back(cgal_background_mesher());
+  known.emplace_back(mesher::cgal_mesh_3{}, "cgal");
 #endif
   return known;
 }

@@ -28,6 +28,10 @@ std::vector<std::string> simplifier_names();
 /// Of meshers of elements of dimension D.
 template <int D>
 std::vector<std::string> mesher_names();
+template <>
+std::vector<std::string> mesher_names<2>();
+template <>
+std::vector<std::string> mesher_names<3>();
 std::vector<std::string> surface_mesher_names();
 std::vector<std::string> improver_names();
 /// What is done to the pieces of ranks after redistribution by elements.
@@ -47,8 +51,16 @@ any_simplification_rule make_simplifier(const std::string& name, std::optional<d
 /// D.
 template <int D>
 any_mesher<D> make_mesher(const std::string& name);
+template <>
+any_mesher<2> make_mesher(const std::string& name);
+template <>
+any_mesher<3> make_mesher(const std::string& name);
 template <int D>
 any_improver<D> make_improver(const std::string& name, const std::string& option = "--improver");
+template <>
+any_improver<2> make_improver(const std::string& name, const std::string& option);
+template <>
+any_improver<3> make_improver(const std::string& name, const std::string& option);
 improving_strategy make_improving_strategy(const std::string& name);
 any_surface_mesher make_surface_mesher(const std::string& name);
 any_line_keeping_mesher make_background_mesher(const std::string& name);

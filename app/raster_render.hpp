@@ -25,7 +25,7 @@ inline rgb lit(rgb colour, vec3 normal, const raster_view& view) {
   return darkened(colour, ambient + (1 - ambient) * std::max(0.0, dot(facing, light)));
 }
 
-namespace detail {
+namespace raster {
 
 /// A canvas of samples with depths.
 class raster_canvas {
@@ -123,7 +123,7 @@ private:
   std::vector<float> depths_;
 };
 
-} // namespace detail
+} // namespace raster
 
 /// A picture, and how near to the viewer its triangles are.
 struct raster_picture {
@@ -139,7 +139,7 @@ inline raster_picture render_with_depths(const raster_scene& scene, const raster
   constexpr double pale = 0.3;
   if (samples < 1)
     throw usage_error("a picture with " + std::to_string(samples) + " samples a pixel; give at least 1");
-  detail::raster_canvas canvas(samples * width, samples * height, view, scene.background);
+  raster::raster_canvas canvas(samples * width, samples * height, view, scene.background);
   for (const auto& triangle : scene.backdrop)
     canvas.draw(triangle, pale);
   canvas.forget_depths();

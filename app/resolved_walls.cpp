@@ -13,7 +13,7 @@ namespace dovetail::app {
 namespace {
 
 /// Beyond, walls cost more elements than a default mesh should have.
-constexpr double most_by_default = 600'000;
+constexpr double most_in_walls_by_default = 600'000;
 /// Meshes with thin walls are not divided below, which is more than a mesh of default sizes has: a background
 /// whose elements are not flat in walls is half as large as the mesh. One of 2 million elements took 42 s in
 /// two pieces, its solids, and 86 s in 45.
@@ -49,7 +49,8 @@ void resolve_walls(model_source& source, const model_options& wanted, const poli
                                       "could not be made");
     return;
   }
-  const thin_wall_sizes walls = points.walls_within(wanted.elements.value_or(most_by_default) - *elements);
+  const thin_wall_sizes walls =
+      points.walls_within(wanted.elements.value_or(most_in_walls_by_default) - *elements);
   source.size_of_details = std::exchange(source.size, keep_bounds(points.field(walls)));
   if (walls.least > 0)
     source.summary.warnings.push_back(

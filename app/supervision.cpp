@@ -44,7 +44,7 @@ struct shared_lines {
   volatile bool stack_is_used_up;
   std::atomic<pid_t> spare; ///< 0: none
 };
-shared_lines* lines = nullptr;
+shared_lines* lines_of_child = nullptr;
 
 /// In a child: where its spare process is called from; -1: there can be none.
 int spare_calls = -1;
@@ -64,11 +64,14 @@ bool memory_is_limited() {
 }
 
 std::string line_of(int signal) {
-  if (lines != nullptr && lines->stack_is_used_up)
-    return lines->crashed[0] != 0 ? lines->out_of_stack.data()
-                                  : std::string("ended: ") + detail::out_of_stack;
-  if (lines != nullptr && lines->crashed[0] != 0)
-    return (signal == SIGXCPU ? lines->endless : signal == SIGKILL ? lines->killed : lines->crashed).data();
+  if (lines_of_child != nullptr && lines_of_child->stack_is_used_up)
+    return lines_of_child->crashed[0] != 0 ? lines_of_child->out_of_stack.data()
+                                           : std::string("ended: ") + detail::out_of_stack;
+  if (lines_of_child != nullptr && lines_of_child->crashed[0] != 0)
+    return (signal == SIGXCPU   ? lines_of_child->endless
+            : signal == SIGKILL ? lines_of_child->killed
+                                : lines_of_child->crashed)
+        .data();
   return "ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")" +
          (signal == SIGKILL ? ", perhaps for want of memory" : "");
 }
@@ -105,7 +108,7 @@ void end_without_parent() {
 supervisor::supervisor() {
   void* const memory =
       ::mmap(nullptr, sizeof(shared_lines), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  lines = memory == MAP_FAILED ? nullptr : new (memory) shared_lines{};
+  lines_of_child = memory == MAP_FAILED ? nullptr : new (memory) shared_lines{};
   std::array<int, 2> calls{-1, -1};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, calls.data()) == 0)
     call_ = detail::owned_descriptor(calls[1]);
@@ -126,12 +129,12 @@ supervisor::supervisor() {
   if (child_ == 0)
     end_with_parent(self);
   if (child_ < 0)
-    lines = nullptr; // nobody would read them
+    lines_of_child = nullptr; // nobody would read them
   call_.close();
   spare_calls = calls[0];
   catch_stop_signals();
-  if (child_ == 0 && lines != nullptr)
-    detail::on_stack_overflow([] { lines->stack_is_used_up = true; });
+  if (child_ == 0 && lines_of_child != nullptr)
+    detail::on_stack_overflow([] { lines_of_child->stack_is_used_up = true; });
   sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 
@@ -163,7 +166,7 @@ bool supervisor::has_ended(std::chrono::milliseconds at_most, const std::functio
 bool supervisor::goes_on_in_spare() {
   const bool was_killed_by_others =
       WIFSIGNALED(status_) && WTERMSIG(status_) == SIGKILL && !requested_ && !ended_;
-  const pid_t spare = lines != nullptr ? lines->spare.exchange(0) : 0;
+  const pid_t spare = lines_of_child != nullptr ? lines_of_child->spare.exchange(0) : 0;
   if (spare == 0 || !was_killed_by_others)
     return false;
   const bool heard = ::send(call_.get(), "", 1, MSG_NOSIGNAL) == 1;
@@ -247,13 +250,13 @@ int run_supervised(const std::function<int()>& command, const std::function<bool
 }
 
 spare_process::spare_process() {
-  if (lines == nullptr || spare_calls < 0)
+  if (lines_of_child == nullptr || spare_calls < 0)
     return;
   std::fflush(nullptr);
   const pid_t supervisor = ::getppid();
   process_ = ::fork();
   if (process_ > 0)
-    lines->spare = process_;
+    lines_of_child->spare = process_;
   if (process_ == 0)
     await_call(supervisor);
 }
@@ -261,35 +264,35 @@ spare_process::spare_process() {
 spare_process::~spare_process() {
   if (process_ <= 0)
     return;
-  lines->spare = 0;
+  lines_of_child->spare = 0;
   ::kill(process_, SIGKILL);
   ::waitpid(process_, nullptr, 0);
 }
 
 risky_step::risky_step(const std::string& what, const std::string& advice, double seconds) {
-  if (lines == nullptr)
+  if (lines_of_child == nullptr)
     return;
   limited_ = limit(seconds);
   std::array<char, 32> budget{};
   std::snprintf(budget.data(), budget.size(), "%.0f s", seconds);
   copy(limited_ ? what + " is not done after " + budget.data() + " of processor time; " + advice
                 : what + " is not done within the limit to processor time; allow more (ulimit -t)",
-       lines->endless);
-  copy(what + " was killed, perhaps for want of memory", lines->killed);
-  copy(what + ": " + detail::out_of_stack, lines->out_of_stack);
+       lines_of_child->endless);
+  copy(what + " was killed, perhaps for want of memory", lines_of_child->killed);
+  copy(what + ": " + detail::out_of_stack, lines_of_child->out_of_stack);
   copy(what +
            (memory_is_limited() ? " crashed, perhaps for want of memory, to which there is a limit: allow "
                                   "more (ulimit -v); or "
                                 : " crashed; ") +
            advice,
-       lines->crashed);
+       lines_of_child->crashed);
 }
 
 risky_step::~risky_step() {
   if (limited_)
     ::setrlimit(RLIMIT_CPU, &before_);
-  if (lines != nullptr)
-    lines->crashed[0] = 0;
+  if (lines_of_child != nullptr)
+    lines_of_child->crashed[0] = 0;
 }
 
 /// Never sets a limit that is higher than the one that is there.

@@ -16,8 +16,6 @@
 namespace dovetail::app {
 namespace {
 
-using json = nlohmann::json;
-
 struct named_colour {
   std::string_view what; ///< a cause, or a wall
   std::string_view name;
@@ -51,15 +49,15 @@ class mark_reader {
 public:
   explicit mark_reader(std::string file) : file_(std::move(file)) {}
 
-  view_marks read(const json& document) {
+  view_marks read(const nlohmann::json& document) {
     if (!document.is_object())
       fail("it is no JSON object");
-    if (const json* poor = object_at(document, "", "poor_elements"))
-      if (!poor->value("thinnest_wall", json()).is_null()) // as where no wall is thin
+    if (const nlohmann::json* poor = object_at(document, "", "poor_elements"))
+      if (!poor->value("thinnest_wall", nlohmann::json()).is_null()) // as where no wall is thin
         add_wall(*object_at(*poor, "poor_elements", "thinnest_wall"), "poor_elements/thinnest_wall");
-    if (const json* interfaces = object_at(document, "", "interfaces")) {
+    if (const nlohmann::json* interfaces = object_at(document, "", "interfaces")) {
       add_angles(*interfaces, "interfaces", false);
-      if (const json* coarse = object_at(*interfaces, "interfaces", "coarse"))
+      if (const nlohmann::json* coarse = object_at(*interfaces, "interfaces", "coarse"))
         add_angles(*coarse, "interfaces/coarse", true);
     }
     add_suppressed(document);
@@ -72,7 +70,8 @@ public:
 
 private:
   /// Null where there is none, since other reports lack them.
-  const json* object_at(const json& of, const std::string& path, const std::string& name) const {
+  const nlohmann::json* object_at(const nlohmann::json& of, const std::string& path,
+                                  const std::string& name) const {
     const auto found = of.find(name);
     if (found == of.end())
       return nullptr;
@@ -80,36 +79,36 @@ private:
       fail((path.empty() ? "" : path + "/") + name + " is no object");
     return &*found;
   }
-  double number(const json& value, const std::string& path) const {
+  double number(const nlohmann::json& value, const std::string& path) const {
     if (!value.is_number() || !std::isfinite(value.get<double>()))
       fail(path + " is no finite number");
     return value.get<double>();
   }
-  const std::string& text(const json& value, const std::string& path) const {
+  const std::string& text(const nlohmann::json& value, const std::string& path) const {
     if (!value.is_string())
       fail(path + " is no text");
     return value.get_ref<const std::string&>();
   }
-  const json& member(const json& of, const std::string& path, const char* name) const {
+  const nlohmann::json& member(const nlohmann::json& of, const std::string& path, const char* name) const {
     const auto found = of.find(name);
     if (found == of.end())
       fail(path + " has no \"" + name + "\"");
     return *found;
   }
-  vec3 place(const json& of, const std::string& path) const {
-    const json& at = member(of, path, "at");
+  vec3 place(const nlohmann::json& of, const std::string& path) const {
+    const nlohmann::json& at = member(of, path, "at");
     if (!at.is_array() || at.size() != 3)
       fail(path + "/at is no list of three numbers");
     return {number(at[0], path + "/at/0"), number(at[1], path + "/at/1"), number(at[2], path + "/at/2")};
   }
 
-  void add_wall(const json& wall, const std::string& path) {
+  void add_wall(const nlohmann::json& wall, const std::string& path) {
     const auto& [label, name, colour] = colour_of("thinnest wall");
     const double thickness = number(member(wall, path, "thickness"), path + "/thickness");
     marks_.push_back({place(wall, path), std::string(label), colour,
                       "thinnest wall, thickness " + number_text(thickness, 4)});
   }
-  void add_suppressed(const json& document) {
+  void add_suppressed(const nlohmann::json& document) {
     const auto listed = document.find("suppressed");
     if (listed == document.end())
       return;
@@ -117,7 +116,7 @@ private:
       fail("suppressed is no list");
     const auto& [label, name, colour] = colour_of("detail left out");
     for (std::size_t k = 0; k < listed->size(); ++k) {
-      const json& each = (*listed)[k];
+      const nlohmann::json& each = (*listed)[k];
       const std::string path = "suppressed/" + std::to_string(k);
       if (!each.is_object())
         fail(path + " is no object");
@@ -128,7 +127,7 @@ private:
                             ", left out; " + number_text(length, 4)});
     }
   }
-  void add_angles(const json& interfaces, const std::string& path, bool coarse) {
+  void add_angles(const nlohmann::json& interfaces, const std::string& path, bool coarse) {
     const auto listed = interfaces.find("below_threshold");
     if (listed == interfaces.end())
       return;
@@ -138,7 +137,7 @@ private:
     for (std::size_t k = 0; k < listed->size(); ++k)
       add_angle((*listed)[k], list + "/" + std::to_string(k), coarse);
   }
-  void add_angle(const json& angle, const std::string& path, bool coarse) {
+  void add_angle(const nlohmann::json& angle, const std::string& path, bool coarse) {
     if (!angle.is_object())
       fail(path + " is no object");
     const std::string& cause = text(member(angle, path, "cause"), path + "/cause");
@@ -146,7 +145,7 @@ private:
     const std::string label = std::string(coarse ? of_coarse : of_angle) + cause;
     std::string said =
         label + ": " + number_text(degrees, 4) + "° of a " + text(member(angle, path, "of"), path + "/of");
-    const json& cad = member(angle, path, "cad");
+    const nlohmann::json& cad = member(angle, path, "cad");
     if (!cad.is_array())
       fail(path + "/cad is no list");
     for (std::size_t k = 0; k < cad.size(); ++k)
@@ -176,10 +175,10 @@ view_marks marks_of_report(const std::filesystem::path& report) {
   } catch (const input_error& problem) {
     throw input_error(std::string(problem.what()) + remedy);
   }
-  json document;
+  nlohmann::json document;
   try {
-    document = json::parse(text);
-  } catch (const json::exception& problem) {
+    document = nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& problem) {
     reader.fail("it is not valid JSON: " + std::string(problem.what()));
   }
   return reader.read(document);

@@ -3,6 +3,7 @@
 #include "base64.hpp"
 #include "colours.hpp"
 #include "json_text.hpp"
+#include "markup.hpp"
 #include "three_js_pieces.hpp"    // three.min.js, or nothing
 #include "view_model_script.hpp"  // view_model.js
 #include "view_page_template.hpp" // view_page.html as a string
@@ -20,8 +21,6 @@
 namespace dovetail::app {
 namespace {
 
-using json = nlohmann::json;
-
 template <class T>
 std::string base64_of(const std::vector<T>& items) {
   const auto bytes = std::as_bytes(std::span(items));
@@ -36,24 +35,24 @@ std::string text_of_colour(rgb colour) {
   return text;
 }
 
-json json_of(const view_labels& labels) {
-  json list = json::array();
+nlohmann::json json_of(const view_labels& labels) {
+  nlohmann::json list = nlohmann::json::array();
   for (std::size_t k = 0; k < labels.names.size(); ++k)
     list.push_back(
         {{"name", labels.names[k]}, {"colour", text_of_colour(colour_of_number(static_cast<local_id>(k)))}});
   return list;
 }
 
-json json_of(vec3 p) {
+nlohmann::json json_of(vec3 p) {
   return {p.x, p.y, p.z};
 }
 
-json json_of(std::optional<float> number) {
-  return number ? json(*number) : json();
+nlohmann::json json_of(std::optional<float> number) {
+  return number ? nlohmann::json(*number) : nlohmann::json();
 }
 
-json angle_colours() {
-  json list = json::array();
+nlohmann::json angle_colours() {
+  nlohmann::json list = nlohmann::json::array();
   for (int degrees = 0; degrees <= 70; ++degrees)
     list.push_back(text_of_colour(colour_of_angle(degrees)));
   return list;
@@ -100,20 +99,20 @@ struct page_items {
 };
 
 /// Numbers of two bytes where they fit.
-json packed(const std::vector<std::uint32_t>& items) {
+nlohmann::json packed(const std::vector<std::uint32_t>& items) {
   if (std::any_of(items.begin(), items.end(), [](std::uint32_t item) { return item > 0xffff; }))
     return {{"bytes", 4}, {"data", base64_of(items)}};
   return {{"bytes", 2}, {"data", base64_of(std::vector<std::uint16_t>(items.begin(), items.end()))}};
 }
 
-json json_of(const page_items& items) {
+nlohmann::json json_of(const page_items& items) {
   return {{"vertices", packed(items.vertices)},
           {"pieces", packed(items.pieces)},
           {"materials", packed(items.materials)},
           {"angles", {{"bytes", 2}, {"data", base64_of(items.angles)}}}};
 }
 
-json arrays_of(const view_scene& scene, const view_part& part) {
+nlohmann::json arrays_of(const view_scene& scene, const view_part& part) {
   used_points points(scene);
   page_items triangles, elements, outline;
   std::vector<std::uint32_t> groups;
@@ -131,7 +130,8 @@ json arrays_of(const view_scene& scene, const view_part& part) {
     points.add(outline.vertices, edge.ends);
     outline.pieces.push_back(static_cast<std::uint32_t>(edge.piece));
   }
-  json all{{"triangles", json_of(triangles)}, {"elements", json_of(elements)}, {"outline", json_of(outline)}};
+  nlohmann::json all{
+      {"triangles", json_of(triangles)}, {"elements", json_of(elements)}, {"outline", json_of(outline)}};
   all["triangles"]["groups"] = packed(groups);
   all["triangles"]["outer"] = std::count_if(part.triangles.begin(), part.triangles.end(), [&](local_id t) {
     return static_cast<std::size_t>(t) < scene.outer;
@@ -140,9 +140,10 @@ json arrays_of(const view_scene& scene, const view_part& part) {
   return all;
 }
 
-json json_of(const view_marks& marks, vec3 middle) {
+nlohmann::json json_of(const view_marks& marks, vec3 middle) {
   const auto labels = labels_of(marks);
-  json data{{"report", marks.report}, {"labels", json::array()}, {"all", json::array()}};
+  nlohmann::json data{
+      {"report", marks.report}, {"labels", nlohmann::json::array()}, {"all", nlohmann::json::array()}};
   for (const mark_label& label : labels)
     data["labels"].push_back({{"name", label.name}, {"colour", text_of_colour(label.colour)}});
   for (const view_mark& mark : marks.all) {
@@ -152,10 +153,6 @@ json json_of(const view_marks& marks, vec3 middle) {
         {{"at", json_of(mark.place - middle)}, {"label", label - labels.begin()}, {"text", mark.text}});
   }
   return data;
-}
-
-void put_in(std::string& page, const std::string& place, const std::string& text) {
-  page.replace(page.find(place), place.size(), text);
 }
 
 std::string three_js() {
@@ -173,28 +170,28 @@ bool has_three_js() {
 
 std::string page_of_view(const view_scene& scene, const view_part& part, const std::string& name,
                          const view_marks& marks) {
-  json centres = json::array();
+  nlohmann::json centres = nlohmann::json::array();
   for (const vec3 centre : scene.centres)
     centres.push_back(json_of(centre - scene.box.center()));
-  const json data{{"name", name},
-                  {"dimension", scene.dimension},
-                  {"secondOrder", scene.second_order},
-                  {"count", scene.count},
-                  {"outer", scene.outer},
-                  {"inner", scene.triangles.size() - scene.outer},
-                  {"complete", json_of(complete_under(scene, part))},
-                  {"vertices", scene.vertices},
-                  {"least", scene.least_angle},
-                  {"lower", json_of(scene.box.lower)},
-                  {"upper", json_of(scene.box.upper)},
-                  {"leftOut", text_of_left_out(scene, part)},
-                  {"groups", json_of(scene.groups)},
-                  {"pieces", json_of(scene.pieces)},
-                  {"materials", json_of(scene.materials)},
-                  {"centres", std::move(centres)},
-                  {"angleColours", angle_colours()},
-                  {"marks", json_of(marks, scene.box.center())},
-                  {"arrays", arrays_of(scene, part)}};
+  const nlohmann::json data{{"name", name},
+                            {"dimension", scene.dimension},
+                            {"secondOrder", scene.second_order},
+                            {"count", scene.count},
+                            {"outer", scene.outer},
+                            {"inner", scene.triangles.size() - scene.outer},
+                            {"complete", json_of(complete_under(scene, part))},
+                            {"vertices", scene.vertices},
+                            {"least", scene.least_angle},
+                            {"lower", json_of(scene.box.lower)},
+                            {"upper", json_of(scene.box.upper)},
+                            {"leftOut", text_of_left_out(scene, part)},
+                            {"groups", json_of(scene.groups)},
+                            {"pieces", json_of(scene.pieces)},
+                            {"materials", json_of(scene.materials)},
+                            {"centres", std::move(centres)},
+                            {"angleColours", angle_colours()},
+                            {"marks", json_of(marks, scene.box.center())},
+                            {"arrays", arrays_of(scene, part)}};
   // Names may be any bytes; a "<" in one must not end the script.
   std::string text = text_of_json(data, -1, true);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))

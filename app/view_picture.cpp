@@ -18,10 +18,10 @@ namespace {
 
 constexpr rgb outline_colour{45, 50, 60};
 constexpr rgb faint_outline{150, 155, 165};
-constexpr rgb inside{214, 208, 196}; ///< of elements where colours are of groups
-constexpr double hidden_edges = 2;   ///< in pixels: elements of this size have no edges,
-constexpr double full_edges = 10;    ///< and from this size on the darkest ones
-constexpr double mark_radius = 5;    ///< in pixels, with the rim
+constexpr rgb inside_colour{214, 208, 196}; ///< of elements where colours are of groups
+constexpr double hidden_edges = 2;          ///< in pixels: elements of this size have no edges,
+constexpr double full_edges = 10;           ///< and from this size on the darkest ones
+constexpr double mark_radius = 5;           ///< in pixels, with the rim
 constexpr double mark_rim = 1.5;
 constexpr double hidden_rim = 0.7;        ///< of a mark with a hole, whose ring shows its colour
 constexpr double mark_hole = 2.3;         ///< in pixels: the radius of this hole
@@ -144,7 +144,7 @@ private:
     case view_colours::group:
       break;
     }
-    return wishes_.under ? colour_of_angle(scene_.angles[e]) : inside;
+    return wishes_.under ? colour_of_angle(scene_.angles[e]) : inside_colour;
   }
   rgb colour_of_triangle(std::size_t t) const {
     return wishes_.colours == view_colours::group

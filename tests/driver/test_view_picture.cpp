@@ -13,7 +13,7 @@
 namespace dovetail::app {
 namespace {
 
-constexpr rgb inside{214, 208, 196};
+constexpr rgb colour_inside{214, 208, 196};
 
 /// Seen along y, the row lies from left to right.
 view_wishes from_front(view_colours colours) {
@@ -73,9 +73,9 @@ TEST_CASE("groups and angles are colours too") {
 TEST_CASE("a section shows elements inside, and takes away what is before it") {
   const view_scene scene = scene_of(testing::row_of_cubes(2));
   view_wishes wishes = from_front(view_colours::group);
-  CHECK_FALSE(is_shade_of(picture_of_view(scene, wishes).at(40, 35), inside));
+  CHECK_FALSE(is_shade_of(picture_of_view(scene, wishes).at(40, 35), colour_inside));
   wishes.cut = view_plane{{0, -1, 0}, -0.5};
-  CHECK(is_shade_of(picture_of_view(scene, wishes).at(40, 35), inside));
+  CHECK(is_shade_of(picture_of_view(scene, wishes).at(40, 35), colour_inside));
   wishes.cut = view_plane{{1, 0, 0}, 1}; // half of the row stays, and fills the picture
   const raster_image half = picture_of_view(scene, wishes);
   CHECK(half.at(20, 30) == white);

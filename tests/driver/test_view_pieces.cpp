@@ -32,23 +32,23 @@
 namespace dovetail::app {
 namespace {
 
+using dovetail::testing::coarse_cubes_in_eight;
 using dovetail::testing::scratch_folder;
 
 constexpr std::int64_t all = 1'000'000; ///< triangles of a page that has everything
-const dovetail::testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 /// The files of a mesh in pieces: a VTU file for each or for some of them, without groups, or files of ranks,
 /// which have some.
 void write(const std::string& how, const std::filesystem::path& folder) {
   if (how == "mfem")
-    io::rank_writer<io::mfem_format>{.ranks = 3}(cubes.distributed(), folder);
+    io::rank_writer<io::mfem_format>{.ranks = 3}(coarse_cubes_in_eight.distributed(), folder);
   else if (how == "openfoam")
-    io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes.distributed(), folder);
+    io::rank_writer<io::openfoam_format>{.ranks = 3}(coarse_cubes_in_eight.distributed(), folder);
   else if (how == "msh")
-    io::rank_writer<io::rank_msh_format>{.ranks = 3, .format = {.binary = false}}(cubes.distributed(),
-                                                                                  folder);
+    io::rank_writer<io::rank_msh_format>{.ranks = 3, .format = {.binary = false}}(
+        coarse_cubes_in_eight.distributed(), folder);
   else
-    io::vtu_writer{.files = how == "vtu" ? 0 : 3}(cubes.distributed(), folder);
+    io::vtu_writer{.files = how == "vtu" ? 0 : 3}(coarse_cubes_in_eight.distributed(), folder);
   std::filesystem::remove(folder / "surface.vtp");
 }
 
@@ -129,7 +129,7 @@ std::map<std::vector<std::array<double, 3>>, std::string> groups_by_place(const 
 
 TEST_CASE("VTU files have the groups of the surface beside them, as MSH files of the mesh have their own") {
   const scratch_folder folder("view_pieces"), other("view_pieces_msh");
-  auto mesh = cubes.distributed();
+  auto mesh = coarse_cubes_in_eight.distributed();
   mesh.group_names = {"inlet", "", "walls & more", "", "walls & more"};
   io::vtu_writer{}(mesh, folder);
   io::rank_writer<io::rank_msh_format>{.ranks = 3}(mesh, other);
@@ -145,7 +145,7 @@ TEST_CASE("VTU files have the groups of the surface beside them, as MSH files of
 
 TEST_CASE("a file beside the mesh that is not its surface, or damaged, gives no groups") {
   const scratch_folder folder("view_pieces");
-  io::vtu_writer{}(cubes.distributed(), folder);
+  io::vtu_writer{}(coarse_cubes_in_eight.distributed(), folder);
   const std::string surface = dovetail::testing::file_content(folder / "surface.vtp");
   const auto names_with = [&](const std::string& content) {
     dovetail::testing::write_content(folder / "surface.vtp", content);
@@ -169,7 +169,7 @@ TEST_CASE("a file beside the mesh that is not its surface, or damaged, gives no 
   std::string moved = surface;
   moved[moved.find("\n_") + 2 + 8] ^= 1; // of the first coordinate
   CHECK(names_with(moved) == without);
-  auto finer = cubes;
+  auto finer = coarse_cubes_in_eight;
   finer.cells = 8;
   const scratch_folder other("view_pieces_finer");
   io::vtu_writer{}(finer.distributed(), other);
