@@ -47,17 +47,17 @@ generated<3> bisected(const TopoDS_Shape& shape, double size, std::size_t most_f
                                       {.most_faces = most_faces});
 }
 
-const report& account(const generated<3>& made) {
+const report& bisection_report(const generated<3>& made) {
   return made.summary.find("recursive bisection");
 }
 
 /// `chords`: by what part of it chords of curved faces may make the volume smaller.
-void check_mesh(const generated<3>& made, double volume, std::size_t most_faces, double chords = 1e-9) {
+void check_bisected(const generated<3>& made, double volume, std::size_t most_faces, double chords = 1e-9) {
   REQUIRE(made.failures.empty());
   CHECK(io::check_distributed(made.mesh).text() == "");
   CHECK(volume_of(made.mesh) == doctest::Approx(volume).epsilon(chords));
   CHECK(made.quality.elements > 0);
-  const report& cuts = account(made);
+  const report& cuts = bisection_report(made);
   CHECK(cuts.get("most_faces") <= static_cast<double>(most_faces));
   CHECK(cuts.get("subdomains") == static_cast<double>(made.mesh.counts.size()));
   CHECK(cuts.get("least_dihedral_deg") >= 8);
@@ -68,32 +68,32 @@ void check_mesh(const generated<3>& made, double volume, std::size_t most_faces,
 
 TEST_CASE("a cube and a ball are divided until every subdomain has few faces") {
   const auto cube = bisected(BRepPrimAPI_MakeBox(1.0, 1.0, 1.0).Shape(), 0.08, 700);
-  check_mesh(cube, 1, 700);
-  CHECK(account(cube).get("cuts") >= 4);
+  check_bisected(cube, 1, 700);
+  CHECK(bisection_report(cube).get("cuts") >= 4);
   const auto ball = bisected(BRepPrimAPI_MakeSphere(1.0).Shape(), 0.12, 900);
-  check_mesh(ball, 4 * std::numbers::pi / 3, 900, 0.01);
+  check_bisected(ball, 4 * std::numbers::pi / 3, 900, 0.01);
 }
 
 TEST_CASE("loops in one another, voids, bodies that a cut leaves apart, and several materials") {
   const auto hollow = bisected(
       BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(1.0).Shape(), BRepPrimAPI_MakeSphere(0.4).Shape()).Shape(), 0.12,
       900);
-  check_mesh(hollow, 4 * std::numbers::pi / 3 * (1 - 0.4 * 0.4 * 0.4), 900, 0.01);
+  check_bisected(hollow, 4 * std::numbers::pi / 3 * (1 - 0.4 * 0.4 * 0.4), 900, 0.01);
   const auto off_centre =
       bisected(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(1.0, 1.0, 1.0).Shape(),
                                BRepPrimAPI_MakeSphere(gp_Pnt(0.2, 0.3, 0.25), 0.1).Shape())
                    .Shape(),
                0.06, 1000);
-  check_mesh(off_centre, 1 - 4 * std::numbers::pi / 3 * 0.1 * 0.1 * 0.1, 1000, 0.001);
+  check_bisected(off_centre, 1 - 4 * std::numbers::pi / 3 * 0.1 * 0.1 * 0.1, 1000, 0.001);
   const auto torus = bisected(BRepPrimAPI_MakeTorus(1.0, 0.3).Shape(), 0.1, 500);
-  check_mesh(torus, 2 * std::numbers::pi * std::numbers::pi * 0.3 * 0.3, 500, 0.03);
+  check_bisected(torus, 2 * std::numbers::pi * std::numbers::pi * 0.3 * 0.3, 500, 0.03);
   const auto fork =
       bisected(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(1.0, 0.4, 3.0).Shape(),
                                BRepPrimAPI_MakeBox(gp_Pnt(0.3, -1, 0.5), gp_Pnt(0.7, 2, 4)).Shape())
                    .Shape(),
                0.1, 700);
-  check_mesh(fork, 1.2 - 0.4 * 0.4 * 2.5, 700);
-  CHECK(account(fork).get("subdomains") > account(fork).get("cuts") + 1); // its prongs
+  check_bisected(fork, 1.2 - 0.4 * 0.4 * 2.5, 700);
+  CHECK(bisection_report(fork).get("subdomains") > bisection_report(fork).get("cuts") + 1); // its prongs
 
   TopoDS_Compound both;
   BRep_Builder builder;
@@ -101,7 +101,7 @@ TEST_CASE("loops in one another, voids, bodies that a cut leaves apart, and seve
   builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)).Shape());
   builder.Add(both, BRepPrimAPI_MakeBox(gp_Pnt(1, 0.2, 0.1), gp_Pnt(2, 0.8, 0.9)).Shape());
   const auto two = bisected(both, 0.1, 500);
-  check_mesh(two, 1.48, 500);
+  check_bisected(two, 1.48, 500);
   CHECK(std::any_of(two.mesh.counts.begin(), two.mesh.counts.end(),
                     [](const piece_counts& piece) { return piece.material == 1; }));
 }
@@ -112,14 +112,14 @@ TEST_CASE("the built-in aircraft, and what follows meshing") {
   const any_geometry model(std::move(built.model));
   const erased_sizing size(keep_bounds(scaled(source_field(built.size, std::move(built.sources)), 3)));
   const auto made = baselines::generate_bisected(model, size, policies(), {.most_subdomains = 16});
-  check_mesh(made, volume, 20000, 0.01);
+  check_bisected(made, volume, 20000, 0.01);
   CHECK(made.mesh.counts.size() == 1);
   const auto divided =
       baselines::generate_bisected(model, size, policies(), {.most_faces = 100, .most_subdomains = 16});
-  check_mesh(divided, volume, 20000, 0.01);
+  check_bisected(divided, volume, 20000, 0.01);
   CHECK(divided.mesh.counts.size() >= 16);
-  CHECK(account(divided).get("planes") > account(divided).get("cuts"));
-  CHECK(account(divided).get("too_sharp") > 0);
+  CHECK(bisection_report(divided).get("planes") > bisection_report(divided).get("cuts"));
+  CHECK(bisection_report(divided).get("too_sharp") > 0);
   const auto even = redistribution_by::elements{}(divided.mesh, 3);
   const auto improved = improve_pieces(*even.mesh, improvement::native{}, {}, parallel::serial{});
   CHECK(io::check_distributed(improved.mesh).text() == "");

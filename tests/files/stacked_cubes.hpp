@@ -149,4 +149,8 @@ inline distributed_mesh stacked_cubes::spoilt(local_id which,
   return mesh;
 }
 
+inline const stacked_cubes cubes_in_eight{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
+inline const stacked_cubes coarse_cubes_in_eight{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
+inline const stacked_cubes cubes_in_27{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
+
 } // namespace dovetail::testing

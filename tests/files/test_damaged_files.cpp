@@ -19,7 +19,7 @@ using namespace dovetail;
 
 namespace {
 
-const testing::stacked_cubes cubes{.cells = 2, .cuts = 2, .solids = 2};
+const testing::stacked_cubes few_cubes{.cells = 2, .cuts = 2, .solids = 2};
 
 /// A VTU file of one tetrahedron with its coordinates compressed by zlib, as VTK writes it.
 const std::string compressed_vtu = R"(<?xml version="1.0"?>
@@ -37,7 +37,7 @@ const std::string compressed_vtu = R"(<?xml version="1.0"?>
 std::vector<std::pair<std::string, std::string>> valid_files() {
   const testing::scratch_folder folder("damaged_sources");
   std::vector<std::pair<std::string, std::string>> files;
-  const auto mesh = cubes.distributed();
+  const auto mesh = few_cubes.distributed();
   for (const bool partitioned : {false, true})
     for (const bool binary : {false, true}) {
       testing::write_kind_of_msh(mesh, folder, partitioned, true, binary);
@@ -47,7 +47,7 @@ std::vector<std::pair<std::string, std::string>> valid_files() {
   files.emplace_back("mesh_0000.vtu", testing::file_content(folder / "mesh_0000.vtu"));
   files.emplace_back("mesh.pvtu", testing::file_content(folder / "mesh.pvtu"));
   io::loaded_mesh with_fields;
-  with_fields.mesh = cubes.whole();
+  with_fields.mesh = few_cubes.whole();
   with_fields.point_fields = {{"v", std::vector<double>(3 * with_fields.mesh.points.size(), 1), 3}};
   with_fields.element_fields = {{"w", std::vector<double>(with_fields.mesh.elements.size(), 1)}};
   io::write_vtu(with_fields, folder / "fields.vtu");
@@ -191,7 +191,7 @@ TEST_CASE("data that would expand without end are refused") {
 
 TEST_CASE("a file that is cut off anywhere is refused") {
   const testing::scratch_folder folder("truncated");
-  io::vtu_writer{}(cubes.distributed(), folder); // the pieces that the PVTU names
+  io::vtu_writer{}(few_cubes.distributed(), folder); // the pieces that the PVTU names
   for (const auto& file : valid_files()) {
     const auto& name = file.first;
     const auto& content = file.second;
@@ -214,7 +214,7 @@ TEST_CASE("a file that is cut off anywhere is refused") {
 
 TEST_CASE("files with random damage are read or refused, never worse") {
   const testing::scratch_folder folder("mutated");
-  io::vtu_writer{}(cubes.distributed(), folder);
+  io::vtu_writer{}(few_cubes.distributed(), folder);
   std::mt19937 random(20240607);
   std::size_t read = 0, refused = 0;
   for (const auto& [name, original] : valid_files())

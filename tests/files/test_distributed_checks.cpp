@@ -8,10 +8,9 @@
 #include <functional>
 
 using namespace dovetail;
+using testing::coarse_cubes_in_eight;
 
 namespace {
-
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 std::vector<io::seam_fault> seam_kinds(const io::distributed_validity& found) {
   std::vector<io::seam_fault> kinds;
@@ -24,7 +23,7 @@ std::vector<io::seam_fault> seam_kinds(const io::distributed_validity& found) {
 } // namespace
 
 TEST_CASE("a mesh cut into boxes is valid") {
-  const auto found = io::check_distributed(cubes.distributed());
+  const auto found = io::check_distributed(coarse_cubes_in_eight.distributed());
   INFO(found.text());
   CHECK(found.valid());
 }
@@ -83,7 +82,7 @@ TEST_CASE("a sheet inside a subdomain must be an inner side of it") {
 }
 
 TEST_CASE("a skeleton point moved by one bit in one piece is found") {
-  const auto mesh = cubes.spoilt(
+  const auto mesh = coarse_cubes_in_eight.spoilt(
       3, [](mesh_piece& piece) { piece.mesh.points[7].y = std::nextafter(piece.mesh.points[7].y, 2.0); });
   const auto found = io::check_distributed(mesh);
   REQUIRE(found.subdomains.size() == 1);
@@ -92,16 +91,20 @@ TEST_CASE("a skeleton point moved by one bit in one piece is found") {
 }
 
 TEST_CASE("a missing element opens the boundary of its piece") {
-  auto mesh =
-      cubes.spoilt(5, [](mesh_piece& piece) { piece.mesh.elements.pop_back(), piece.mesh.tags.pop_back(); });
+  auto mesh = coarse_cubes_in_eight.spoilt(
+      5, [](mesh_piece& piece) { piece.mesh.elements.pop_back(), piece.mesh.tags.pop_back(); });
   --mesh.counts[5].elements;
   CHECK_FALSE(io::check_distributed(mesh).valid());
 }
 
 TEST_CASE("elements that fit together but are turned over or flat are found, and points that nobody has") {
-  const auto turned = cubes.spoilt(3, [](mesh_piece& piece) { piece.mesh.points.back() = {10, 10, 10}; });
+  const auto turned = coarse_cubes_in_eight.spoilt(3, [](mesh_piece& piece) {
+    piece.mesh.points.back() = {10, 10, 10};
+  });
   CHECK(io::check_distributed(turned).subdomains.at(0).inside.count(mesh_fault::inverted_element) > 0);
-  const auto lonely = cubes.spoilt(3, [](mesh_piece& piece) { piece.mesh.points.push_back({10, 10, 10}); });
+  const auto lonely = coarse_cubes_in_eight.spoilt(3, [](mesh_piece& piece) {
+    piece.mesh.points.push_back({10, 10, 10});
+  });
   auto counted = lonely;
   ++counted.counts[3].inner_points;
   CHECK(io::check_distributed(counted).subdomains.at(0).inside.count(mesh_fault::isolated_point) == 1);
@@ -109,7 +112,7 @@ TEST_CASE("elements that fit together but are turned over or flat are found, and
 
 TEST_CASE("pieces that fit by their points but not by their triangles are found") {
   // Flip the diagonal of one skeleton quadrilateral: both its triangles are then no sides of the pieces.
-  auto mesh = cubes.distributed();
+  auto mesh = coarse_cubes_in_eight.distributed();
   auto& skeleton = mesh.skeleton;
   for (std::size_t a = 0; a < skeleton.sides.size(); ++a)
     for (std::size_t b = 0; b < a; ++b) {
@@ -137,47 +140,49 @@ TEST_CASE("pieces that fit by their points but not by their triangles are found"
 }
 
 TEST_CASE("a skeleton triangle turned inside out is found") {
-  auto mesh = cubes.distributed();
+  auto mesh = coarse_cubes_in_eight.distributed();
   std::swap(mesh.skeleton.sides.own()[0][0], mesh.skeleton.sides.own()[0][1]);
   CHECK_FALSE(io::check_distributed(mesh).valid());
 }
 
 TEST_CASE("an element of a foreign material is found") {
-  const auto mesh = cubes.spoilt(0, [](mesh_piece& piece) { piece.mesh.tags[4] = 1; });
+  const auto mesh = coarse_cubes_in_eight.spoilt(0, [](mesh_piece& piece) { piece.mesh.tags[4] = 1; });
   CHECK(seam_kinds(io::check_distributed(mesh)) == std::vector{io::seam_fault::wrong_material});
 }
 
 TEST_CASE("pieces that cannot be indexed are refused with the subdomain's number") {
-  const auto wrong_index = cubes.spoilt(6, [](mesh_piece& piece) { piece.mesh.elements[0][2] = 100000; });
+  const auto wrong_index =
+      coarse_cubes_in_eight.spoilt(6, [](mesh_piece& piece) { piece.mesh.elements[0][2] = 100000; });
   CHECK_THROWS_WITH_AS(io::check_distributed(wrong_index), doctest::Contains("subdomain 6"), mesh_error);
-  const auto wrong_count = cubes.spoilt(6, [](mesh_piece& piece) { piece.mesh.points.push_back({}); });
+  const auto wrong_count =
+      coarse_cubes_in_eight.spoilt(6, [](mesh_piece& piece) { piece.mesh.points.push_back({}); });
   CHECK_THROWS_WITH_AS(io::mesh_hash(wrong_count), doctest::Contains("subdomain 6"), mesh_error);
-  auto wrong_skeleton = cubes.distributed();
+  auto wrong_skeleton = coarse_cubes_in_eight.distributed();
   wrong_skeleton.skeleton.subdomains.own()[0][0] = 8;
   CHECK_THROWS_AS(io::check_distributed(wrong_skeleton), mesh_error);
 }
 
 TEST_CASE("the hash does not depend on the order of elements and of their vertices") {
-  const auto mesh = cubes.spoilt(2, [](mesh_piece& piece) {
+  const auto mesh = coarse_cubes_in_eight.spoilt(2, [](mesh_piece& piece) {
     std::reverse(piece.mesh.elements.begin(), piece.mesh.elements.end());
     for (auto& e : piece.mesh.elements)
       std::rotate(e.begin(), e.begin() + 1, e.begin() + 3);
   });
-  CHECK(io::mesh_hash(mesh) == io::mesh_hash(cubes.distributed()));
+  CHECK(io::mesh_hash(mesh) == io::mesh_hash(coarse_cubes_in_eight.distributed()));
 }
 
 TEST_CASE("the hash changes with any coordinate, any connection and any orientation") {
-  const auto original = io::mesh_hash(cubes.distributed());
-  CHECK(io::mesh_hash(cubes.spoilt(4, [](mesh_piece& piece) {
+  const auto original = io::mesh_hash(coarse_cubes_in_eight.distributed());
+  CHECK(io::mesh_hash(coarse_cubes_in_eight.spoilt(4, [](mesh_piece& piece) {
           piece.mesh.points.back().z = std::nextafter(piece.mesh.points.back().z, 9.0);
         })) != original);
-  CHECK(io::mesh_hash(cubes.spoilt(4, [](mesh_piece& piece) {
+  CHECK(io::mesh_hash(coarse_cubes_in_eight.spoilt(4, [](mesh_piece& piece) {
           std::swap(piece.mesh.elements[3][0], piece.mesh.elements[3][1]);
         })) != original);
-  CHECK(io::mesh_hash(cubes.spoilt(4, [](mesh_piece& piece) {
+  CHECK(io::mesh_hash(coarse_cubes_in_eight.spoilt(4, [](mesh_piece& piece) {
           piece.mesh.elements[3][0] = piece.mesh.elements[4][1];
         })) != original);
-  auto moved = cubes.distributed();
+  auto moved = coarse_cubes_in_eight.distributed();
   moved.skeleton.points.own()[5].x += 1e-15;
   CHECK(io::mesh_hash(moved) != original);
 }

@@ -42,7 +42,7 @@ io::loaded_mesh read(const std::filesystem::path& file) {
 }
 
 /// The error that a file of one piece with these arrays gives when its fields are read.
-std::string refusal(const std::string& point_data, const std::string& cell_data) {
+std::string refusal_of_fields(const std::string& point_data, const std::string& cell_data) {
   const testing::scratch_folder folder("refused_fields");
   testing::write_content(folder / "a.vtu", piece(1, point_data, cell_data));
   const auto says = testing::refusal_of<input_error>([&] { return read(folder / "a.vtu"); });
@@ -191,19 +191,20 @@ TEST_CASE("fields are written and read back; cells that are no elements have no 
 }
 
 TEST_CASE("fields that are no fields are refused by name") {
-  CHECK(contains(refusal(array("u", "1 2 3 4") + array("u", "1 2 3 4"), ""),
+  CHECK(contains(refusal_of_fields(array("u", "1 2 3 4") + array("u", "1 2 3 4"), ""),
                  "array \"u\": there are two of this name"));
-  CHECK(contains(refusal("", array("w", "1 2") + array("w", "1 2 3 4", 2)),
+  CHECK(contains(refusal_of_fields("", array("w", "1 2") + array("w", "1 2 3 4", 2)),
                  "array \"w\": there are two of this name"));
-  CHECK(contains(refusal(array("v", "1 2 3 4 5 6 7", 2), ""),
+  CHECK(contains(refusal_of_fields(array("v", "1 2 3 4 5 6 7", 2), ""),
                  "array \"v\": 8 values are expected, but there are 7"));
-  CHECK(contains(refusal("", array("w", "1 2 3")), "array \"w\": 2 values are expected, but there are 3"));
-  CHECK(contains(refusal("", array("w", "", 0)), "array \"w\": 0 components"));
-  CHECK(contains(refusal(array("v", "1", 257), ""), "array \"v\": 257 components; 1 to 256"));
+  CHECK(contains(refusal_of_fields("", array("w", "1 2 3")),
+                 "array \"w\": 2 values are expected, but there are 3"));
+  CHECK(contains(refusal_of_fields("", array("w", "", 0)), "array \"w\": 0 components"));
+  CHECK(contains(refusal_of_fields(array("v", "1", 257), ""), "array \"v\": 257 components; 1 to 256"));
   std::string many;
   for (int k = 0; k < 257; ++k)
     many += array("w" + std::to_string(k), "1 2");
-  CHECK(contains(refusal("", many), "more than 256 arrays"));
+  CHECK(contains(refusal_of_fields("", many), "more than 256 arrays"));
 }
 
 TEST_CASE("fields that only some pieces have, or have otherwise, are refused") {

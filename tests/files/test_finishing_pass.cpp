@@ -23,13 +23,12 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::cubes_in_eight;
 
 static_assert(piecewise_mesh_writer<io::vtu_writer> && piecewise_mesh_writer<io::vtu_writer, 2> &&
               piecewise_mesh_writer<io::msh_writer> && piecewise_mesh_writer<io::msh_writer, 2>);
 
 namespace {
-
-const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 io::vtu_writer vtu(int files = 0, const std::string& stem = "mesh") {
   return {.files = files, .stem = stem};
@@ -53,7 +52,7 @@ struct store {
   std::vector<local_id> loads = {};
 
   distributed_mesh mesh() {
-    auto result = cubes.distributed();
+    auto result = cubes_in_eight.distributed();
     result.load = [this, load = result.load](local_id p) {
       loads.push_back(p);
       if (gone.contains(p))
@@ -76,8 +75,8 @@ struct store {
 
 TEST_CASE("hash, statistics and files are the same by every executor") {
   const testing::scratch_folder folder("finish_executors");
-  const auto mesh = cubes.distributed();
-  const auto whole = measure_quality(cubes.whole());
+  const auto mesh = cubes_in_eight.distributed();
+  const auto whole = measure_quality(cubes_in_eight.whole());
   const auto numbers = io::number_globally(mesh);
   quality_statistics expected;
   for (std::size_t p = 0; p < mesh.counts.size(); ++p)
@@ -105,7 +104,7 @@ TEST_CASE("hash, statistics and files are the same by every executor") {
 }
 
 TEST_CASE("a piece whose quality is known is not measured again") {
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_eight.distributed();
   const auto finished = [&] { return io::finish_mesh<3>(mesh, {}, ".", parallel::serial{}); };
   const auto measured = finished();
   for (std::size_t p = 0; p < mesh.counts.size(); ++p) {
@@ -136,7 +135,7 @@ TEST_CASE("a piece is loaded once, whatever is written of it") {
     const auto finished = io::finish_mesh<3>(pieces.mesh(), writers, folder, parallel::serial{});
     CHECK(pieces.loads.size() == 8);
     CHECK(std::set<local_id>(pieces.loads.begin(), pieces.loads.end()).size() == 8);
-    CHECK(finished.hash == io::mesh_hash(cubes.distributed()));
+    CHECK(finished.hash == io::mesh_hash(cubes_in_eight.distributed()));
     CHECK(pieces.gone.empty());
     double bytes = 0;
     for (const auto& summary : finished.summary.children)
@@ -150,7 +149,7 @@ TEST_CASE("a piece is loaded once, whatever is written of it") {
 
 TEST_CASE("a piece that does not fit is an error that names it, and the files stay as they were") {
   const testing::scratch_folder folder("finish_faults");
-  io::vtu_writer{.files = 2}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 2}(cubes_in_eight.distributed(), folder);
   const auto before = testing::content_of(folder);
   const auto refused = [&](const distributed_mesh& mesh, const char* place) {
     CAPTURE(place);
@@ -163,16 +162,18 @@ TEST_CASE("a piece that does not fit is an error that names it, and the files st
       CHECK(testing::content_of(folder) == before);
     }
   };
-  refused(
-      cubes.spoilt(3, [](mesh_piece& p) { p.mesh.points[7].y = std::nextafter(p.mesh.points[7].y, 2.0); }),
-      "moved skeleton point (first: ");
-  auto open = cubes.spoilt(3, [](mesh_piece& p) { p.mesh.elements.pop_back(), p.mesh.tags.pop_back(); });
+  refused(cubes_in_eight.spoilt(
+              3, [](mesh_piece& p) { p.mesh.points[7].y = std::nextafter(p.mesh.points[7].y, 2.0); }),
+          "moved skeleton point (first: ");
+  auto open =
+      cubes_in_eight.spoilt(3, [](mesh_piece& p) { p.mesh.elements.pop_back(), p.mesh.tags.pop_back(); });
   --open.counts[3].elements;
   refused(open, "boundary side that is not in the skeleton (first: ");
-  refused(cubes.spoilt(3, [](mesh_piece& p) { std::swap(p.mesh.elements[17][0], p.mesh.elements[17][1]); }),
+  refused(cubes_in_eight.spoilt(
+              3, [](mesh_piece& p) { std::swap(p.mesh.elements[17][0], p.mesh.elements[17][1]); }),
           "inverted element (17)");
-  refused(cubes.spoilt(3, [](mesh_piece& p) { p.mesh.tags[4] = 7; }), "wrong material (first: 4)");
-  auto lost = cubes.distributed();
+  refused(cubes_in_eight.spoilt(3, [](mesh_piece& p) { p.mesh.tags[4] = 7; }), "wrong material (first: 4)");
+  auto lost = cubes_in_eight.distributed();
   for (std::size_t t = 0; t < lost.skeleton.sides.size(); ++t)
     if (lost.skeleton.subdomains[t] == std::array<local_id, 2>{3, no_id}) {
       std::swap(lost.skeleton.sides.own()[t][0], lost.skeleton.sides.own()[t][1]);
@@ -186,16 +187,17 @@ TEST_CASE("a folder that cannot be written is an io_error from every executor") 
   testing::write_content(folder / "file", "x");
   for (const any_executor& run_tasks :
        {any_executor(parallel::serial{}), any_executor(parallel::processes{.worker_count = 2})})
-    CHECK_THROWS_WITH_AS(io::finish_mesh<3>(cubes.distributed(), {vtu()}, folder / "file", run_tasks),
-                         doctest::Contains("file"), io_error);
-  CHECK_THROWS_WITH_AS(io::finish_mesh<3>(cubes.distributed(), {lost_writer{}}, folder,
+    CHECK_THROWS_WITH_AS(
+        io::finish_mesh<3>(cubes_in_eight.distributed(), {vtu()}, folder / "file", run_tasks),
+        doctest::Contains("file"), io_error);
+  CHECK_THROWS_WITH_AS(io::finish_mesh<3>(cubes_in_eight.distributed(), {lost_writer{}}, folder,
                                           parallel::processes{.worker_count = 2}),
                        doctest::Contains("no_such_folder/"), io_error);
 }
 
 TEST_CASE("pieces are given up once their files are complete, and a second run goes on from there") {
   const testing::scratch_folder folder("finish_resumed");
-  io::vtu_writer{.files = 4}(cubes.distributed(), folder / "expected");
+  io::vtu_writer{.files = 4}(cubes_in_eight.distributed(), folder / "expected");
   store pieces;
   auto mesh = pieces.mesh();
   mesh.load = [load = mesh.load](local_id p) {
@@ -219,7 +221,7 @@ TEST_CASE("pieces are given up once their files are complete, and a second run g
 
   pieces.loads.clear();
   const auto finished = finish(pieces.mesh(), 4);
-  CHECK(finished.hash == io::mesh_hash(cubes.distributed()));
+  CHECK(finished.hash == io::mesh_hash(cubes_in_eight.distributed()));
   CHECK(finished.quality.elements == 6 * 8 * 8 * 8);
   CHECK(finished.summary.get("taken_over") == 3);
   CHECK(pieces.loads == std::vector<local_id>{4, 5});
@@ -246,7 +248,7 @@ TEST_CASE(
                            bool release = false) {
     return io::finish_mesh<3>(mesh, {vtu(4)}, folder / "out", run_tasks, {.release = release});
   };
-  const auto expected = counted(flattened(cubes.distributed()), parallel::serial{});
+  const auto expected = counted(flattened(cubes_in_eight.distributed()), parallel::serial{});
   CHECK(all_low(expected.poor) == expected.quality.min_dihedrals.below(low_dihedral_deg));
   REQUIRE(all_low(expected.poor) > 0);
   const auto& [touching, next_ring, rest] = expected.at_interfaces;
@@ -255,7 +257,8 @@ TEST_CASE(
   CHECK(touching.min_dihedrals.below(low_dihedral_deg) + next_ring.min_dihedrals.below(low_dihedral_deg) +
             rest.min_dihedrals.below(low_dihedral_deg) ==
         all_low(expected.poor));
-  const auto by_processes = counted(flattened(cubes.distributed()), parallel::processes{.worker_count = 2});
+  const auto by_processes =
+      counted(flattened(cubes_in_eight.distributed()), parallel::processes{.worker_count = 2});
   CHECK(encoded(by_processes.poor) == encoded(expected.poor));
   CHECK(encoded(by_processes.at_interfaces) == encoded(expected.at_interfaces));
 
@@ -310,7 +313,7 @@ TEST_CASE("an MSH file is put together from the parts of pieces, also by workers
 
 TEST_CASE("a lost or shortened part of an MSH file is an io_error that names it") {
   const testing::scratch_folder folder("finish_msh_lost");
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_eight.distributed();
   for (const std::uintmax_t bytes : {0, 7, 100}) {
     const auto output = io::msh_writer{}.begin(mesh, folder);
     for (std::size_t f = 0; f + 1 < output.bounds.size(); ++f) {
@@ -335,7 +338,7 @@ TEST_CASE("no file gets its final name before those of all writers are complete"
     }
   };
   CHECK_THROWS_WITH_AS(
-      io::finish_mesh<3>(cubes.distributed(), {vtu(), blocked_writer{}}, folder, parallel::serial{}),
+      io::finish_mesh<3>(cubes_in_eight.distributed(), {vtu(), blocked_writer{}}, folder, parallel::serial{}),
       doctest::Contains("mesh.msh"), io_error);
   CHECK(testing::content_of(folder).empty());
 }
@@ -364,7 +367,7 @@ TEST_CASE("files of pieces that were numbered otherwise are not taken over") {
 TEST_CASE("a writer alone leaves nothing in a folder of unfinished files that was there") {
   const testing::scratch_folder folder("write_into_old");
   std::filesystem::create_directories(folder / "unfinished");
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_eight.distributed();
   mesh.load = [load = mesh.load](local_id p) {
     if (p == 1)
       throw io_error("a damaged file");

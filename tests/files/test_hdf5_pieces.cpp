@@ -1,6 +1,7 @@
 // HDF5 files of whole pieces: h5py, VTK and a reader of XDMF find the mesh that VTU files have
 // (check_hdf5_pieces.py).
 #include "files/file_size_limit.hpp"
+#include "files/hdf5_at_exit.hpp"
 #include "files/scratch_folder.hpp"
 #include "files/script_outcome.hpp"
 #include "files/stacked_cubes.hpp"
@@ -35,14 +36,11 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::cubes_in_eight;
 
 static_assert(piecewise_mesh_writer<io::hdf5_writer> && piecewise_mesh_writer<io::hdf5_writer, 2>);
 
 namespace {
-
-[[maybe_unused]] const bool closes_all_itself = (io::let_hdf5_close_nothing_at_exit(), true);
-
-const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 testing::script_outcome compare(const std::filesystem::path& folder,
                                 const std::filesystem::path& vtu_folder) {
@@ -91,7 +89,7 @@ distributed_mesh with_straight_middles(distributed_mesh mesh) {
 TEST_CASE("h5py, VTK and the XDMF file show the mesh of the VTU files") {
   if (!has_readers())
     return;
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_eight.distributed();
   for (const int files : {0, 3, 1})
     check_readers<3>(mesh, files, " files, 3072 elements, 729 points, 1152 sides, measure 1.000000000");
 }
@@ -99,7 +97,7 @@ TEST_CASE("h5py, VTK and the XDMF file show the mesh of the VTU files") {
 TEST_CASE("second-order elements too") {
   if (!has_readers())
     return;
-  check_readers<3>(with_straight_middles(cubes.distributed()), 3, "3 files, 3072 elements, ");
+  check_readers<3>(with_straight_middles(cubes_in_eight.distributed()), 3, "3 files, 3072 elements, ");
 }
 
 TEST_CASE("triangles too, whose faces differ within a piece") {
@@ -114,13 +112,13 @@ TEST_CASE("a file that was changed is another mesh") {
   if (!has_readers())
     return;
   const testing::scratch_folder folder("hdf5_changed");
-  io::vtu_writer{}(cubes.distributed(), folder / "vtu");
-  io::hdf5_writer{}(cubes.distributed(), folder / "hdf5");
+  io::vtu_writer{}(cubes_in_eight.distributed(), folder / "vtu");
+  io::hdf5_writer{}(cubes_in_eight.distributed(), folder / "hdf5");
   auto index = testing::file_content(folder / "hdf5/mesh.xdmf");
   index.replace(index.find("mesh_0001.vtkhdf:/VTKHDF/Points"), 9, "mesh_0002");
   testing::write_content(folder / "hdf5/mesh.xdmf", index);
   CHECK(compare(folder / "hdf5", folder / "vtu").status != 0);
-  auto moved = cubes.distributed();
+  auto moved = cubes_in_eight.distributed();
   moved.skeleton.points.own()[7].x += 1e-9;
   io::hdf5_writer{}(moved, folder / "hdf5");
   CHECK(compare(folder / "hdf5", folder / "vtu").status != 0);
@@ -128,7 +126,7 @@ TEST_CASE("a file that was changed is another mesh") {
 
 TEST_CASE("the files are the same by every executor, at any time") {
   const testing::scratch_folder folder("hdf5_executors");
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_eight.distributed();
   const auto summary = io::hdf5_writer{.files = 3}(mesh, folder / "alone");
   const auto expected = testing::content_of(folder / "alone");
   std::uint64_t bytes = 0;
@@ -152,11 +150,11 @@ TEST_CASE("the files are the same by every executor, at any time") {
 
 TEST_CASE("pieces are given up once their files are complete, and a second run goes on from there") {
   const testing::scratch_folder folder("hdf5_resumed");
-  io::hdf5_writer{.files = 4}(cubes.distributed(), folder / "expected");
+  io::hdf5_writer{.files = 4}(cubes_in_eight.distributed(), folder / "expected");
   std::map<local_id, piece_note> notes;
   std::set<local_id> gone;
   std::vector<local_id> loads;
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_eight.distributed();
   bool is_damaged = true;
   mesh.load = [&, load = mesh.load](local_id p) {
     loads.push_back(p);
@@ -189,7 +187,7 @@ TEST_CASE("a file that would not fit leaves no trace, and the error names it and
     CAPTURE(bytes);
     const testing::file_size_limit limit(bytes);
     try {
-      io::hdf5_writer{}(cubes.distributed(), folder);
+      io::hdf5_writer{}(cubes_in_eight.distributed(), folder);
       FAIL_CHECK("it fits");
     } catch (const io_error& error) {
       const std::string said = error.what();
@@ -203,9 +201,9 @@ TEST_CASE("a file that would not fit leaves no trace, and the error names it and
 
 TEST_CASE("files of an earlier mesh in the folder disappear, other files stay") {
   const testing::scratch_folder folder("hdf5_stale");
-  io::hdf5_writer{}(cubes.distributed(), folder);
+  io::hdf5_writer{}(cubes_in_eight.distributed(), folder);
   testing::write_content(folder / "mesh_mine.vtkhdf", "x");
-  io::hdf5_writer{.files = 2}(cubes.distributed(), folder);
+  io::hdf5_writer{.files = 2}(cubes_in_eight.distributed(), folder);
   std::set<std::string> names;
   for (const auto& [name, content] : testing::content_of(folder))
     names.insert(name);
@@ -215,7 +213,7 @@ TEST_CASE("files of an earlier mesh in the folder disappear, other files stay") 
 
 TEST_CASE("a piece that has not the skeleton's points, or comes out of turn, is refused") {
   const testing::scratch_folder folder("hdf5_disagree");
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_eight.distributed();
   mesh.load = [load = mesh.load](local_id p) {
     auto piece = load(p);
     if (p == 2) {
@@ -225,7 +223,7 @@ TEST_CASE("a piece that has not the skeleton's points, or comes out of turn, is 
     return piece;
   };
   CHECK_THROWS_WITH_AS(io::hdf5_writer{}(mesh, folder), doctest::Contains("subdomain 2"), mesh_error);
-  const auto other = cubes.distributed();
+  const auto other = cubes_in_eight.distributed();
   {
     const auto file = io::hdf5_writer{}.begin(other, folder).open(1);
     CHECK(testing::content_of(folder).contains("mesh_0001.vtkhdf.part"));

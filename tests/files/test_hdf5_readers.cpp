@@ -1,4 +1,5 @@
 // What HDF5 files say is what was written, and what one of them says of another must fit.
+#include "files/hdf5_at_exit.hpp"
 #include "files/read_back.hpp"
 #include "files/scratch_folder.hpp"
 #include "files/second_order_verdict.hpp"
@@ -32,12 +33,9 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::cubes_in_27;
 
 namespace {
-
-[[maybe_unused]] const bool closes_all_itself = (io::let_hdf5_close_nothing_at_exit(), true);
-
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
 
 /// Replaces a dataset; of more rows than values the rest is nothing, and takes no room.
 template <class T>
@@ -100,7 +98,7 @@ distributed_simplicial_mesh<2> plane_mesh() {
 } // namespace
 
 TEST_CASE("pieces: what is read is what was written, by any of the files") {
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_27.distributed();
   for (const int files : {0, 3, 1}) {
     CAPTURE(files);
     const testing::scratch_folder folder("hdf5_read");
@@ -110,7 +108,7 @@ TEST_CASE("pieces: what is read is what was written, by any of the files") {
       CHECK(io::mesh_hash(read) == io::mesh_hash(mesh));
       CHECK(read.subdomains.size() == 1296);
       CHECK(read.files.size() == (files == 0 ? 27u : static_cast<std::size_t>(files)));
-      const auto whole = cubes.whole();
+      const auto whole = cubes_in_27.whole();
       CHECK(testing::by_places(read.mesh.points, read.mesh.elements, read.mesh.tags) ==
             testing::by_places(whole.points, whole.elements, whole.tags));
     }
@@ -120,7 +118,7 @@ TEST_CASE("pieces: what is read is what was written, by any of the files") {
 }
 
 TEST_CASE("elements at interfaces are those of the mesh that was written") {
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_27.distributed();
   const testing::scratch_folder folder("hdf5_interfaces");
   io::hdf5_writer{}(mesh, folder);
   io::streamed_interfaces<3> interfaces;
@@ -152,7 +150,7 @@ TEST_CASE("elements at interfaces are those of the mesh that was written") {
 }
 
 TEST_CASE("ranks: what is read is what was written, ghosts left out") {
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_27.distributed();
   const testing::scratch_folder folder("hdf5_ranks");
   for (const bool ghosts : {false, true}) {
     io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = ghosts}(mesh, folder);
@@ -180,7 +178,7 @@ TEST_CASE("triangles are read too, and second order where that is asked for") {
   io::rank_writer<io::vtkhdf_format>{.ranks = 2, .ghosts = true}(mesh, folder);
   CHECK(io::read_hdf5(folder / "ranks.vtkhdf").triangles.size() ==
         io::read_hdf5(folder / "mesh.xdmf").triangles.size());
-  const auto quadratic = testing::with_bent_edges(cubes.distributed());
+  const auto quadratic = testing::with_bent_edges(cubes_in_27.distributed());
   io::hdf5_writer{}(quadratic, folder);
   io::rank_writer<io::xdmf_format>{.ranks = 2}(quadratic, folder);
   io::rank_writer<io::vtkhdf_format>{.ranks = 2}(quadratic, folder);
@@ -196,9 +194,9 @@ TEST_CASE("triangles are read too, and second order where that is asked for") {
         [&](const auto& f) { io::for_each_hdf5_piece(folder / name, f, io::element_order::any); });
   };
   for (const char* name : {"mesh.xdmf", "ranks.vtkhdf"})
-    testing::expect_second_order(check(name), cubes.whole());
+    testing::expect_second_order(check(name), cubes_in_27.whole());
   io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = true}(quadratic, folder);
-  testing::expect_second_order(check("ranks.vtkhdf"), cubes.whole());
+  testing::expect_second_order(check("ranks.vtkhdf"), cubes_in_27.whole());
   const auto whole = io::read_hdf5_ranks(folder / "ranks.h5", io::element_order::any);
   testing::expect_bent_edges(whole);
   io::streamed_middles<3> middles;
@@ -219,7 +217,7 @@ TEST_CASE("triangles are read too, and second order where that is asked for") {
 
 TEST_CASE("pieces: a file with one thing changed is refused, in words that name it") {
   const testing::scratch_folder folder("hdf5_near");
-  io::hdf5_writer{.files = 2}(cubes.distributed(), folder);
+  io::hdf5_writer{.files = 2}(cubes_in_27.distributed(), folder);
   const auto read = [&] { io::read_hdf5(folder / "mesh.xdmf"); };
   const auto file = folder / "mesh_0000.vtkhdf", skeleton = folder / "skeleton.vtkhdf";
   const auto refuse = [&](const std::string& expected, const std::function<void()>& spoil) {
@@ -382,7 +380,7 @@ TEST_CASE("pieces: a file with one thing changed is refused, in words that name 
 
 TEST_CASE("ranks: a file with one thing changed is refused, in words that name it") {
   const testing::scratch_folder folder("hdf5_ranks_near");
-  io::rank_writer<io::xdmf_format>{.ranks = 3}(cubes.distributed(), folder);
+  io::rank_writer<io::xdmf_format>{.ranks = 3}(cubes_in_27.distributed(), folder);
   const auto file = folder / "ranks.h5";
   const auto read = [&] { io::read_hdf5_ranks(file); };
   const auto refuse = [&](const std::string& expected, const std::function<void()>& spoil) {

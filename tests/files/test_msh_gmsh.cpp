@@ -113,14 +113,14 @@ bool nodes_are_filed_right(int dimension, int tag) {
          std::includes(used.begin(), used.end(), own.begin(), own.end());
 }
 
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.2};
+const testing::stacked_cubes smooth_cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.2};
 
 } // namespace
 
 TEST_CASE("Gmsh rereads a whole mesh without complaint, with its groups and counts") {
   const testing::scratch_folder folder("msh_whole");
   for (const bool binary : {true, false}) {
-    io::msh_writer{.binary = binary}(cubes.distributed(), folder);
+    io::msh_writer{.binary = binary}(smooth_cubes.distributed(), folder);
     const gmsh_session session(folder / "mesh.msh");
     CHECK(session.complaints() == std::string());
     CHECK(entities(0).size() == 12);
@@ -152,7 +152,7 @@ TEST_CASE("Gmsh rereads a whole mesh without complaint, with its groups and coun
 TEST_CASE("faces of the model are closed by their curves, and volumes by their faces, with signs") {
   const testing::scratch_folder folder("msh_boundary");
   for (const bool partitioned : {false, true}) {
-    testing::write_kind_of_msh(cubes.distributed(), folder, partitioned);
+    testing::write_kind_of_msh(smooth_cubes.distributed(), folder, partitioned);
     const gmsh_session session(folder / "mesh.msh");
     for (int dimension = 1; dimension <= 3; ++dimension)
       for (const auto& [d, tag] : entities(dimension)) {
@@ -180,7 +180,7 @@ TEST_CASE("faces of the model are closed by their curves, and volumes by their f
 
 TEST_CASE("Gmsh rereads a partitioned mesh without complaint and with equal counts per partition") {
   const testing::scratch_folder folder("msh_partitioned");
-  const auto mesh = cubes.distributed();
+  const auto mesh = smooth_cubes.distributed();
   for (const bool binary : {true, false})
     for (const bool ghosts : {false, true}) {
       testing::write_kind_of_msh(mesh, folder, true, ghosts, binary);
@@ -222,7 +222,7 @@ TEST_CASE("Gmsh rereads a partitioned mesh without complaint and with equal coun
 
 TEST_CASE("ghosts are the elements that touch another partition in a point") {
   const testing::scratch_folder folder("msh_ghosts");
-  const auto mesh = cubes.distributed();
+  const auto mesh = smooth_cubes.distributed();
   testing::write_kind_of_msh(mesh, folder, true, true);
   const gmsh_session session(folder / "mesh.msh");
   std::map<int, std::set<std::size_t>> nodes_of_partition; // of own elements
@@ -271,7 +271,7 @@ TEST_CASE("gmsh -check finds no fault") {
   }
   const testing::scratch_folder folder("msh_check");
   for (const bool partitioned : {false, true}) {
-    testing::write_kind_of_msh(cubes.distributed(), folder, partitioned);
+    testing::write_kind_of_msh(smooth_cubes.distributed(), folder, partitioned);
     const auto command =
         "gmsh -check '" + (folder / "mesh.msh").string() + "' > '" + (folder / "log").string() + "' 2>&1";
     CHECK(std::system(command.c_str()) == 0);
@@ -284,7 +284,7 @@ TEST_CASE("gmsh -check finds no fault") {
 
 TEST_CASE("long and odd names survive as far as Gmsh allows") {
   const testing::scratch_folder folder("msh_names");
-  auto mesh = cubes.distributed();
+  auto mesh = smooth_cubes.distributed();
   mesh.group_names[0] = std::string(400, 'x');
   mesh.group_names[2] = "line\nbreak \"quoted\" \xc3\xa4";
   io::msh_writer{}(mesh, folder);
@@ -299,7 +299,7 @@ TEST_CASE("long and odd names survive as far as Gmsh allows") {
 
 TEST_CASE("what Gmsh writes is read: versions 2.2 and 4.1, text and binary, whole and partitioned") {
   const testing::scratch_folder folder("msh_by_gmsh");
-  const auto mesh = cubes.distributed();
+  const auto mesh = smooth_cubes.distributed();
   for (const bool partitioned : {false, true}) {
     testing::write_kind_of_msh(mesh, folder, partitioned);
     for (const double version : {2.2, 4.1})

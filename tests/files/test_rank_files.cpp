@@ -25,6 +25,7 @@
 #include <string>
 
 using namespace dovetail;
+using testing::cubes_in_27;
 
 namespace {
 
@@ -48,8 +49,6 @@ double volume_in(const std::string& log) {
   return at == std::string::npos ? 0 : std::stod(log.substr(at + before.size()));
 }
 
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
-
 } // namespace
 
 TEST_CASE("PVTU: VTK reads what each rank has, copies marked, with and without ghosts") {
@@ -57,7 +56,7 @@ TEST_CASE("PVTU: VTK reads what each rank has, copies marked, with and without g
     return;
   for (const int ranks : {1, 4}) {
     const testing::scratch_folder folder("ranks_pvtu");
-    const auto summary = io::rank_writer<io::pvtu_format>{.ranks = ranks}(cubes.distributed(), folder);
+    const auto summary = io::rank_writer<io::pvtu_format>{.ranks = ranks}(cubes_in_27.distributed(), folder);
     CHECK(summary.get("elements") == 1296);
     CHECK(summary.get("files") == ranks + 1);
     CHECK(summary.find("redistribution").get("ranks") == ranks);
@@ -69,7 +68,7 @@ TEST_CASE("PVTU: VTK reads what each rank has, copies marked, with and without g
     CHECK((found.log.find(" 0 copies, 0 ghosts") != std::string::npos) == (ranks == 1));
   }
   const testing::scratch_folder folder("ranks_pvtu");
-  io::rank_writer<io::pvtu_format>{.ranks = 3, .ghosts = true}(cubes.distributed(), folder);
+  io::rank_writer<io::pvtu_format>{.ranks = 3, .ghosts = true}(cubes_in_27.distributed(), folder);
   const auto found = check("pvtu", folder, 3);
   INFO(found.log);
   CHECK(found.status == 0);
@@ -100,7 +99,7 @@ TEST_CASE("PVTU of triangles") {
 TEST_CASE("PVTU of second order: VTK reads nodes in the middle of edges, with and without ghosts") {
   if (!has_python_module("vtkmodules.vtkIOXML"))
     return;
-  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const auto mesh = testing::with_bent_edges(cubes_in_27.distributed());
   for (const bool ghosts : {false, true}) {
     const testing::scratch_folder folder("ranks_quadratic");
     io::rank_writer<io::pvtu_format>{.ranks = 4, .ghosts = ghosts}(mesh, folder);
@@ -118,7 +117,7 @@ TEST_CASE("OpenFOAM: checkMesh finds the processors' meshes right, and faces in 
     return;
   }
   const testing::scratch_folder folder("ranks_openfoam");
-  io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes.distributed(), folder);
+  io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes_in_27.distributed(), folder);
   auto found = check("openfoam", folder, 3);
   INFO(found.log);
   CHECK(found.status == 0);
@@ -143,7 +142,7 @@ TEST_CASE(
   const testing::scratch_folder folder("ranks_openfoam_whole");
   const auto has = [&](const char* name) { return std::filesystem::exists(folder / name); };
   const auto write = [&](int ranks) {
-    return io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes.distributed(), folder);
+    return io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes_in_27.distributed(), folder);
   };
   write(1);
   CHECK(has("constant/polyMesh/points"));
@@ -176,7 +175,7 @@ TEST_CASE("OpenFOAM: dictionaries of others are kept, with those of dovetail bes
   const testing::scratch_folder folder("ranks_openfoam_kept");
   std::filesystem::create_directories(folder / "system");
   testing::write_content(folder / "system/controlDict", "application simpleFoam;\n");
-  const auto summary = io::rank_writer<io::openfoam_format>{.ranks = 2}(cubes.distributed(), folder);
+  const auto summary = io::rank_writer<io::openfoam_format>{.ranks = 2}(cubes_in_27.distributed(), folder);
   CHECK(testing::file_content(folder / "system/controlDict") == "application simpleFoam;\n");
   CHECK(std::filesystem::exists(folder / "system/fvSchemes"));
   CHECK(testing::file_count(folder / "system") == 4);
@@ -188,7 +187,7 @@ TEST_CASE("MFEM: ranks agree about what each group of them shares, sides are the
   if (!has_python_module("os")) // but NumPy
     return;
   const testing::scratch_folder folder("ranks_mfem");
-  const auto summary = io::rank_writer<io::mfem_format>{.ranks = 5}(cubes.distributed(), folder);
+  const auto summary = io::rank_writer<io::mfem_format>{.ranks = 5}(cubes_in_27.distributed(), folder);
   CHECK(summary.files.back() == "mesh.000004");
   const auto found = check("mfem", folder, 5);
   INFO(found.log);
@@ -213,7 +212,7 @@ TEST_CASE("MFEM of second order: nodes are those of H1_3D_P2, with ghosts asked 
   if (!has_python_module("os")) // but NumPy
     return;
   const testing::scratch_folder folder("ranks_mfem_quadratic"), with_ghosts("ranks_mfem_ghosts");
-  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const auto mesh = testing::with_bent_edges(cubes_in_27.distributed());
   io::rank_writer<io::mfem_format>{.ranks = 5}(mesh, folder);
   const auto found = check("mfem", folder, 5);
   INFO(found.log);
@@ -232,7 +231,7 @@ TEST_CASE("MFEM of second order: nodes are those of H1_3D_P2, with ghosts asked 
 }
 
 TEST_CASE("workers write the files of ranks in the finishing pass, beside others; pieces stay") {
-  auto mesh = testing::with_bent_edges(cubes.distributed());
+  auto mesh = testing::with_bent_edges(cubes_in_27.distributed());
   bool released = false;
   mesh.release = [&released](local_id, const piece_note&) { released = true; };
   const testing::scratch_folder folder("ranks_finishing"), alone("ranks_alone");
@@ -254,19 +253,20 @@ TEST_CASE("workers write the files of ranks in the finishing pass, beside others
 
 TEST_CASE("files of more ranks do not stay behind; a mesh that does not fit leaves none") {
   const testing::scratch_folder folder("ranks_fewer");
-  io::rank_writer<io::pvtu_format>{.ranks = 5}(cubes.distributed(), folder);
-  io::rank_writer<io::pvtu_format>{.ranks = 2}(cubes.distributed(), folder);
+  io::rank_writer<io::pvtu_format>{.ranks = 5}(cubes_in_27.distributed(), folder);
+  io::rank_writer<io::pvtu_format>{.ranks = 2}(cubes_in_27.distributed(), folder);
   CHECK(testing::file_count(folder) == 3);
   for (const int ranks : {4, 2}) // the number of folders says for how many processors the case is
-    io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes.distributed(), folder);
+    io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes_in_27.distributed(), folder);
   CHECK(std::filesystem::exists(folder / "processor1/constant/polyMesh/points"));
   CHECK_FALSE(std::filesystem::exists(folder / "processor2"));
   const testing::scratch_folder other("ranks_wrong");
-  CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 28}(cubes.distributed(), other), partition_error);
-  const auto quadratic = testing::with_bent_edges(cubes.distributed());
+  CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 28}(cubes_in_27.distributed(), other),
+                  partition_error);
+  const auto quadratic = testing::with_bent_edges(cubes_in_27.distributed());
   CHECK_THROWS_WITH_AS(io::rank_writer<io::openfoam_format>{.ranks = 2}(quadratic, other),
                        doctest::Contains("openfoam are of first order"), usage_error);
-  const auto cracked = cubes.spoilt(20, [](mesh_piece& piece) { piece.skeleton_points[0] = 1 << 20; });
+  const auto cracked = cubes_in_27.spoilt(20, [](mesh_piece& piece) { piece.skeleton_points[0] = 1 << 20; });
   CHECK_THROWS_AS(io::rank_writer<io::pvtu_format>{.ranks = 2}(cracked, other), mesh_error);
   CHECK(testing::file_count(other) == 0);
 }

@@ -1,6 +1,7 @@
 // HDF5 files of parallel solvers, filled by all ranks at once: h5py and VTK read them (check_rank_files.py).
 #include "files/bent_edges.hpp"
 #include "files/file_size_limit.hpp"
+#include "files/hdf5_at_exit.hpp"
 #include "files/scratch_folder.hpp"
 #include "files/script_outcome.hpp"
 #include "files/stacked_cubes.hpp"
@@ -32,10 +33,9 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::cubes_in_27;
 
 namespace {
-
-[[maybe_unused]] const bool closes_all_itself = (io::let_hdf5_close_nothing_at_exit(), true);
 
 testing::script_outcome check(const std::string& format, const std::filesystem::path& folder, int ranks) {
   return testing::run_script(DOVETAIL_TESTS "/check_rank_files.py " + format + " '" + folder.string() + "' " +
@@ -50,7 +50,6 @@ bool has_python_module(const std::string& name) {
   return false;
 }
 
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
 const std::string one_mesh = "1296 elements, 343 vertices, 432 boundary sides, measure 1.000000000, ";
 
 } // namespace
@@ -59,7 +58,7 @@ TEST_CASE("plain arrays with an XDMF file: h5py reads one mesh") {
   if (!has_python_module("h5py"))
     return;
   const testing::scratch_folder folder("ranks_xdmf");
-  const auto summary = io::rank_writer<io::xdmf_format>{.ranks = 4}(cubes.distributed(), folder);
+  const auto summary = io::rank_writer<io::xdmf_format>{.ranks = 4}(cubes_in_27.distributed(), folder);
   CHECK(summary.get("files") == 2);
   const auto found = check("xdmf", folder, 4);
   INFO(found.log);
@@ -76,7 +75,7 @@ TEST_CASE("plain arrays with an XDMF file: h5py reads one mesh") {
 TEST_CASE("plain arrays of second order: h5py reads nodes in the middle of edges, in XDMF's order") {
   if (!has_python_module("h5py"))
     return;
-  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const auto mesh = testing::with_bent_edges(cubes_in_27.distributed());
   const testing::scratch_folder folder("ranks_xdmf_quadratic");
   io::rank_writer<io::xdmf_format>{.ranks = 4}(mesh, folder);
   const auto found = check("xdmf", folder, 4);
@@ -114,7 +113,7 @@ TEST_CASE("plain arrays of triangles, of first and second order: h5py reads one 
 TEST_CASE("what the arrays say of each vertex, element and side is the same in all formats") {
   if (!has_python_module("h5py, vtkmodules.vtkIOHDF, vtkmodules.vtkIOXML"))
     return;
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_27.distributed();
   const testing::scratch_folder folder("ranks_agree");
   io::vtu_writer{}(mesh, folder);
   io::rank_writer<io::pvtu_format>{.ranks = 3, .ghosts = true}(mesh, folder);
@@ -150,7 +149,7 @@ TEST_CASE("what the arrays say of each vertex, element and side is the same in a
 TEST_CASE("nodes in the middle of edges are the same in all formats") {
   if (!has_python_module("h5py, vtkmodules.vtkIOHDF, vtkmodules.vtkIOXML"))
     return;
-  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const auto mesh = testing::with_bent_edges(cubes_in_27.distributed());
   const testing::scratch_folder folder("ranks_agree_quadratic");
   io::vtu_writer{}(mesh, folder);
   io::rank_writer<io::pvtu_format>{.ranks = 5, .ghosts = true}(mesh, folder);
@@ -171,7 +170,7 @@ TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {
   if (!has_python_module("vtkmodules.vtkIOHDF"))
     return;
   const testing::scratch_folder folder("ranks_vtkhdf");
-  io::rank_writer<io::vtkhdf_format>{.ranks = 3, .ghosts = true}(cubes.distributed(), folder);
+  io::rank_writer<io::vtkhdf_format>{.ranks = 3, .ghosts = true}(cubes_in_27.distributed(), folder);
   const auto found = check("vtkhdf", folder, 3);
   INFO(found.log);
   CHECK(found.status == 0);
@@ -183,7 +182,7 @@ TEST_CASE("VTKHDF: VTK reads one mesh, with ghosts") {
 TEST_CASE("VTKHDF of second order: VTK reads nodes in the middle of edges, with and without ghosts") {
   if (!has_python_module("vtkmodules.vtkIOHDF"))
     return;
-  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const auto mesh = testing::with_bent_edges(cubes_in_27.distributed());
   for (const bool ghosts : {false, true}) {
     const testing::scratch_folder folder("ranks_vtkhdf_quadratic");
     io::rank_writer<io::vtkhdf_format>{.ranks = 4, .ghosts = ghosts}(mesh, folder);
@@ -228,7 +227,7 @@ TEST_CASE("each rank's share is a task, and the bytes are the same by every exec
     parallel::run_ranks(3, [&](parallel::in_process& mine) { check_files(parallel::ranks(mine)); });
     CHECK(testing::content_of(folder) == expected);
   };
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_27.distributed();
   compare(mesh, io::rank_writer<io::xdmf_format>{.ranks = 4});
   compare(testing::with_bent_edges(mesh), io::rank_writer<io::xdmf_format>{.ranks = 4});
   compare(mesh, io::rank_writer<io::vtkhdf_format>{.ranks = 4});
@@ -237,7 +236,7 @@ TEST_CASE("each rank's share is a task, and the bytes are the same by every exec
 
 TEST_CASE(
     "a share is written with the pieces of its rank in memory, in any order; ghosts do not change XDMF's") {
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_27.distributed();
   std::vector<local_id> loads;
   mesh.load = [&loads, load = mesh.load](local_id p) {
     loads.push_back(p);
@@ -270,7 +269,7 @@ TEST_CASE(
 TEST_CASE("on a full disk there is an error that names the file, and no file") {
   const testing::scratch_folder folder("ranks_hdf5_full");
   std::optional<testing::file_size_limit> limit;
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_27.distributed();
   mesh.load = [&limit, load = mesh.load](local_id p) { // not before the file has been laid out
     if (!limit)
       limit.emplace(10000);
@@ -319,7 +318,7 @@ TEST_CASE("rows go where they belong, and nowhere else") {
 
 TEST_CASE("a file that cannot be made is named, and HDF5 prints nothing") {
   const testing::scratch_folder folder("ranks_hdf5");
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_27.distributed();
   const io::rank_source<3> source{mesh, io::number_by_ranks(mesh, std::vector<local_id>(27, 0), 1)};
   CHECK_THROWS_WITH_AS(io::vtkhdf_format{}.lay_out<3>(source, {{}}, {folder / "none" / "ranks.vtkhdf"}),
                        doctest::Contains("ranks.vtkhdf: HDF5"), io_error);

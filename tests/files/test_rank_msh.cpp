@@ -17,6 +17,7 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::cubes_in_27;
 
 namespace {
 
@@ -96,10 +97,9 @@ public:
   std::map<int, std::map<std::size_t, int>> ghosts; ///< of a partition: elements, and whose they are
 };
 
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
-
 void check_files(bool binary, bool quadratic) {
-  const auto mesh = quadratic ? testing::with_bent_edges(cubes.distributed()) : cubes.distributed();
+  const auto mesh =
+      quadratic ? testing::with_bent_edges(cubes_in_27.distributed()) : cubes_in_27.distributed();
   const std::size_t nodes = quadratic ? 2197 : 343;
   const testing::scratch_folder folder("ranks_msh");
   io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}}(mesh, folder);
@@ -155,7 +155,8 @@ TEST_CASE("Gmsh reads text files of ranks") {
 TEST_CASE("Gmsh reads the ghosts of each rank, and whose they are") {
   for (const bool binary : {true, false}) {
     const bool quadratic = !binary;
-    const auto mesh = quadratic ? testing::with_bent_edges(cubes.distributed()) : cubes.distributed();
+    const auto mesh =
+        quadratic ? testing::with_bent_edges(cubes_in_27.distributed()) : cubes_in_27.distributed();
     const testing::scratch_folder folder("ranks_msh");
     io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}, .ghosts = true}(mesh,
                                                                                                    folder);

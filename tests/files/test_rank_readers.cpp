@@ -21,11 +21,10 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::cubes_in_27;
 using testing::text_lines;
 
 namespace {
-
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 3, .solids = 3, .jitter = 0.3};
 
 /// What `dovetail check` finds.
 template <class ForEach>
@@ -46,7 +45,7 @@ void expect_ranks(const io::loaded_mesh& read, int ranks) {
 }
 
 void expect_cubes(const io::loaded_mesh& read) {
-  const auto whole = cubes.whole();
+  const auto whole = cubes_in_27.whole();
   CHECK(read.mesh.points.size() == whole.points.size());
   CHECK(testing::by_places(read.mesh.points, read.mesh.elements, read.mesh.tags) ==
         testing::by_places(whole.points, whole.elements, whole.tags));
@@ -58,7 +57,7 @@ TEST_CASE("MFEM: what is read is what was written, of one rank and of several") 
   for (const int ranks : {1, 4}) {
     CAPTURE(ranks);
     const testing::scratch_folder folder("mfem_read");
-    io::rank_writer<io::mfem_format>{.ranks = ranks}(cubes.distributed(), folder);
+    io::rank_writer<io::mfem_format>{.ranks = ranks}(cubes_in_27.distributed(), folder);
     const auto read = io::read_mfem(folder / "mesh.000000");
     expect_cubes(read);
     expect_ranks(read, ranks);
@@ -78,7 +77,7 @@ TEST_CASE("MFEM: what is read is what was written, of one rank and of several") 
 
 TEST_CASE("MFEM: a file with one thing changed is refused, in words that name it") {
   const testing::scratch_folder folder("mfem_near");
-  io::rank_writer<io::mfem_format>{.ranks = 4}(cubes.distributed(), folder / "a/b");
+  io::rank_writer<io::mfem_format>{.ranks = 4}(cubes_in_27.distributed(), folder / "a/b");
   const auto file = folder / "a/b/mesh.000001", lowest = folder / "a/b/mesh.000000";
   const auto read = [&] { io::read_mfem(file); };
   const auto refuse = [&](const std::string& expected, const std::function<void(text_lines&)>& change) {
@@ -235,12 +234,13 @@ TEST_CASE("MFEM: a file with one thing changed is refused, in words that name it
 TEST_CASE("MFEM of second order is read where that is asked for") {
   const testing::scratch_folder folder("mfem_quadratic");
   for (const int ranks : {1, 4}) {
-    io::rank_writer<io::mfem_format>{.ranks = ranks}(testing::with_bent_edges(cubes.distributed()), folder);
+    io::rank_writer<io::mfem_format>{.ranks = ranks}(testing::with_bent_edges(cubes_in_27.distributed()),
+                                                     folder);
     const auto check = [&] {
       return testing::check_second_order(
           [&](const auto& f) { io::for_each_mfem_piece(folder / "mesh.000000", f, io::element_order::any); });
     };
-    testing::expect_second_order(check(), cubes.whole());
+    testing::expect_second_order(check(), cubes_in_27.whole());
     CHECK(testing::refusal_of<input_error>([&] {
             io::read_mfem(folder / "mesh.000000");
           }).find("second order are not read") != std::string::npos);
@@ -284,7 +284,7 @@ TEST_CASE("OpenFOAM: what is read is what was written, of one case and of proces
   for (const int ranks : {1, 4}) {
     CAPTURE(ranks);
     const testing::scratch_folder folder("foam_read");
-    io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes.distributed(), folder);
+    io::rank_writer<io::openfoam_format>{.ranks = ranks}(cubes_in_27.distributed(), folder);
     const std::string mesh = "constant/polyMesh";
     for (const auto& path : {std::filesystem::path(folder), folder / (ranks == 1 ? mesh : "processor1"),
                              folder / ((ranks == 1 ? "" : "processor2/") + mesh + "/owner")}) {
@@ -315,7 +315,7 @@ TEST_CASE("OpenFOAM: what is read is what was written, of one case and of proces
 
 TEST_CASE("OpenFOAM: a file with one thing changed is refused, in words that name it") {
   const testing::scratch_folder folder("foam_near");
-  io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes.distributed(), folder);
+  io::rank_writer<io::openfoam_format>{.ranks = 3}(cubes_in_27.distributed(), folder);
   const auto read = [&] { io::read_openfoam(folder); };
   const auto mesh = folder / "processor1/constant/polyMesh";
   const auto refuse = [&](const char* file, const std::string& expected,

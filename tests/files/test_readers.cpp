@@ -21,13 +21,12 @@
 #include <string>
 
 using namespace dovetail;
+using testing::coarse_cubes_in_eight;
 
 static_assert(mesh_reader<io::vtu_reader>);
 static_assert(mesh_reader<io::msh_reader>);
 
 namespace {
-
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 /// The error that reading a file with this content gives.
 std::string refusal(const std::string& content, const std::string& name = "bad") {
@@ -114,7 +113,7 @@ const std::string ascii_points = R"(<DataArray type="Float32" NumberOfComponents
 } // namespace
 
 TEST_CASE("a distributed mesh reads back from VTU with the same hash, for any number of files") {
-  const auto mesh = cubes.distributed();
+  const auto mesh = coarse_cubes_in_eight.distributed();
   for (const int files : {0, 1, 3}) {
     const testing::scratch_folder folder("reread_vtu");
     io::vtu_writer{.files = files}(mesh, folder);
@@ -131,7 +130,7 @@ TEST_CASE("a distributed mesh reads back from VTU with the same hash, for any nu
 }
 
 TEST_CASE("a distributed mesh reads back from MSH with the same hash, whole and partitioned") {
-  const auto mesh = cubes.distributed();
+  const auto mesh = coarse_cubes_in_eight.distributed();
   for (const bool partitioned : {false, true})
     for (const bool binary : {false, true}) {
       const testing::scratch_folder folder("reread_msh");
@@ -152,7 +151,7 @@ TEST_CASE("a distributed mesh reads back from MSH with the same hash, whole and 
 
 TEST_CASE("a mesh in memory reads back from every format that it can be written to") {
   const testing::scratch_folder folder("plain");
-  const auto mesh = cubes.whole();
+  const auto mesh = coarse_cubes_in_eight.whole();
   std::vector<double> sizes;
   for (const auto& p : mesh.points)
     sizes.push_back(1 + p.x);
@@ -403,7 +402,7 @@ TEST_CASE("what is wrong with an MSH file is named") {
 
 TEST_CASE("pieces that disagree about a shared point are refused") {
   const testing::scratch_folder folder("disagree");
-  auto mesh = cubes.distributed();
+  auto mesh = coarse_cubes_in_eight.distributed();
   io::vtu_writer{}(mesh, folder);
   for (auto& p : mesh.skeleton.points.own())
     p.x += 1e-9;
@@ -432,7 +431,7 @@ namespace {
 /// The files of four ranks, with elements of each other or without.
 void write_ranks(const std::filesystem::path& folder, bool ghosts, bool binary = true) {
   io::rank_writer<io::rank_msh_format>{.ranks = 4, .format = {.binary = binary}, .ghosts = ghosts}(
-      cubes.distributed(), folder);
+      coarse_cubes_in_eight.distributed(), folder);
 }
 
 } // namespace
@@ -484,7 +483,7 @@ TEST_CASE("an MSH file of a rank is refused where the others are not there, or a
 
 TEST_CASE("one VTU file of several is refused, and read by its own reader") {
   const testing::scratch_folder folder("one_piece");
-  io::vtu_writer{.files = 3}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 3}(coarse_cubes_in_eight.distributed(), folder);
   check_says(testing::refusal_of<input_error>([&] { return io::read_mesh(folder / "mesh_0001.vtu"); }),
              "mesh_0001.vtu: this is one of the 3 files of " + (folder / "mesh.pvtu").string());
   CHECK(io::vtu_reader{}(folder / "mesh_0001.vtu").mesh.elements.size() > 0);
@@ -492,7 +491,7 @@ TEST_CASE("one VTU file of several is refused, and read by its own reader") {
   std::filesystem::rename(folder / "mesh.pvtu", folder / "else"); // by itself it is known by its numbers
   for (const char* name : {"mesh_0000.vtu", "mesh_0001.vtu"})
     check_says(io::points_elsewhere(io::read_mesh(folder / name)), "this is a part of a larger mesh");
-  io::vtu_writer{.files = 1}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 1}(coarse_cubes_in_eight.distributed(), folder);
   CHECK(io::points_elsewhere(io::read_mesh(folder / "mesh_0000.vtu")) == "");
 }
 

@@ -18,10 +18,9 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::cubes_in_eight;
 
 namespace {
-
-const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 io::read_piece<3> view_of(const io::loaded_mesh& piece) {
   return {piece.mesh, piece.node_ids, piece.subdomains};
@@ -33,7 +32,7 @@ quality_at_interfaces of_writer(const distributed_mesh& mesh) {
 }
 
 /// What whoever reads the files says, one after the other.
-quality_at_interfaces streamed(const std::filesystem::path& folder) {
+quality_at_interfaces streamed_quality(const std::filesystem::path& folder) {
   io::streamed_interfaces<3> interfaces;
   const auto for_each = [&](const auto& f) {
     REQUIRE(io::for_each_piece_file(folder, nullptr,
@@ -72,7 +71,7 @@ void check_same(const quality_at_interfaces& found, const quality_at_interfaces&
 } // namespace
 
 TEST_CASE("figures of files that are read are those of the mesh that was written") {
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_eight.distributed();
   const auto expected = of_writer(mesh);
   REQUIRE(expected.touching.elements > 0);
   REQUIRE(expected.next_ring.elements > 0);
@@ -81,7 +80,7 @@ TEST_CASE("figures of files that are read are those of the mesh that was written
     CAPTURE(files);
     const testing::scratch_folder folder("interfaces_of_files");
     io::vtu_writer{.files = files}(mesh, folder);
-    const auto found = streamed(folder);
+    const auto found = streamed_quality(folder);
     check_same(found, expected);
     if (files == 0)
       CHECK(encoded(found) == encoded(expected)); // to the last digit
@@ -107,7 +106,7 @@ TEST_CASE("subdomains that meet in points, in edges and in several places") {
 }
 
 TEST_CASE("without several subdomains there are no interfaces") {
-  const auto mesh = cubes.whole();
+  const auto mesh = cubes_in_eight.whole();
   const std::vector<local_id> one(mesh.elements.size(), 5);
   io::streamed_interfaces<3> interfaces;
   interfaces.add({mesh, {}, one});

@@ -14,10 +14,9 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::coarse_cubes_in_eight;
 
 namespace {
-
-const testing::stacked_cubes cubes{.cells = 6, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 struct verdict {
   std::string faults;
@@ -40,7 +39,7 @@ verdict streamed(const std::filesystem::path& folder) {
 std::string faults_of(const std::function<void(mesh_piece&)>& spoil, const std::string& name,
                       int points_more = 0) {
   const testing::scratch_folder folder("streamed_" + name);
-  auto mesh = cubes.distributed();
+  auto mesh = coarse_cubes_in_eight.distributed();
   for (auto& counts : mesh.counts)
     counts.inner_points += points_more;
   mesh.load = [load = mesh.load, spoil](local_id p) {
@@ -61,7 +60,7 @@ std::string faults_of(const std::function<void(mesh_piece&)>& spoil, const std::
 TEST_CASE("a mesh in several files is checked as if it were in one") {
   const testing::scratch_folder folder("streamed_valid");
   for (const int files : {0, 3}) {
-    io::vtu_writer{.files = files}(cubes.distributed(), folder);
+    io::vtu_writer{.files = files}(coarse_cubes_in_eight.distributed(), folder);
     const auto found = streamed(folder);
     CHECK(found.faults == "");
     CHECK(found.elements == 6 * 6 * 6 * 6);
@@ -103,7 +102,7 @@ TEST_CASE("faults between pieces are found") {
 
   // Two pieces hold the same elements.
   const testing::scratch_folder folder("streamed_seams");
-  io::vtu_writer{}(cubes.distributed(), folder);
+  io::vtu_writer{}(coarse_cubes_in_eight.distributed(), folder);
   std::filesystem::copy_file(folder / "mesh_0005.vtu", folder / "mesh_0004.vtu",
                              std::filesystem::copy_options::overwrite_existing);
   CHECK_FALSE(check_validity(io::read_mesh(folder).mesh).valid());
@@ -159,14 +158,14 @@ TEST_CASE("faults between pieces are found") {
 }
 
 TEST_CASE("elements of second order in one file and in several") {
-  const auto mesh = testing::with_bent_edges(cubes.distributed());
+  const auto mesh = testing::with_bent_edges(coarse_cubes_in_eight.distributed());
   const testing::scratch_folder folder("streamed_second_order");
   for (const int files : {0, 3}) {
     io::vtu_writer{.files = files}(mesh, folder);
     testing::expect_second_order(testing::check_second_order([&](const auto& f) {
                                    io::for_each_piece_file(folder, nullptr, f, io::element_order::any);
                                  }),
-                                 cubes.whole());
+                                 coarse_cubes_in_eight.whole());
   }
   CHECK_THROWS_WITH_AS(io::read_mesh(folder), doctest::Contains("quadratic tetrahedron"), input_error);
   io::msh_writer{}(mesh, folder);
@@ -178,13 +177,13 @@ TEST_CASE("elements of second order in one file and in several") {
     testing::expect_bent_edges(read);
     CHECK(read.triangle_middles.size() == read.triangles.size());
     testing::expect_second_order(testing::check_second_order([&](const auto& f) { f(read, "whole"); }),
-                                 cubes.whole());
+                                 coarse_cubes_in_eight.whole());
   }
 }
 
 TEST_CASE("damaged middles of edges are found") {
   const testing::scratch_folder folder("streamed_middles");
-  io::vtu_writer{}(testing::with_bent_edges(cubes.distributed()), folder);
+  io::vtu_writer{}(testing::with_bent_edges(coarse_cubes_in_eight.distributed()), folder);
   std::vector<io::loaded_mesh> pieces;
   io::for_each_piece_file(
       folder, nullptr, [&](const auto& piece, const auto&) { pieces.push_back(piece); },

@@ -15,6 +15,7 @@
 #include <string>
 
 using namespace dovetail;
+using testing::cubes_in_eight;
 
 namespace {
 
@@ -31,8 +32,6 @@ bool has_vtk() {
   return false;
 }
 
-const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
-
 } // namespace
 
 TEST_CASE("VTK reads a valid mesh, for any number of files") {
@@ -40,7 +39,7 @@ TEST_CASE("VTK reads a valid mesh, for any number of files") {
     return;
   for (const int files : {0, 1, 3, 100}) {
     const testing::scratch_folder folder("vtk_check");
-    io::vtu_writer{.files = files}(cubes.distributed(), folder);
+    io::vtu_writer{.files = files}(cubes_in_eight.distributed(), folder);
     const auto found = check(folder);
     INFO(found.log);
     CHECK(found.status == 0);
@@ -57,7 +56,7 @@ TEST_CASE("the check finds a crack, an inverted element and a wrong surface") {
   if (!has_vtk())
     return;
   const auto spoil = [](auto change) {
-    auto mesh = cubes.distributed();
+    auto mesh = cubes_in_eight.distributed();
     mesh.load = [load = mesh.load, change](local_id p) {
       auto piece = load(p);
       if (p == 1)
@@ -81,7 +80,7 @@ TEST_CASE("everything that VTK's writer can write is read: text, base64, raw, zl
   if (!has_vtk())
     return;
   const testing::scratch_folder folder("vtk_variants");
-  const auto mesh = cubes.whole();
+  const auto mesh = cubes_in_eight.whole();
   std::vector<double> sizes;
   for (const auto& p : mesh.points)
     sizes.push_back(0.1 + p.x * p.y);

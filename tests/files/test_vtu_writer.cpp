@@ -13,6 +13,7 @@
 #include <string>
 
 using namespace dovetail;
+using testing::cubes_in_eight;
 
 static_assert(mesh_writer<io::vtu_writer>);
 static_assert(mesh_writer<io::msh_writer>);
@@ -20,8 +21,6 @@ static_assert(mesh_writer<io::vtu_writer, 2> && mesh_writer<io::msh_writer, 2>);
 static_assert(mesh_writer<io::partitioned_msh_writer, 3> && !mesh_writer<io::partitioned_msh_writer, 2>);
 
 namespace {
-
-const testing::stacked_cubes cubes{.cells = 8, .cuts = 2, .solids = 2, .jitter = 0.3};
 
 std::set<std::string> names_in(const std::filesystem::path& folder) {
   std::set<std::string> names;
@@ -34,7 +33,7 @@ std::set<std::string> names_in(const std::filesystem::path& folder) {
 
 TEST_CASE("a mesh becomes one PVTU, a VTU per subdomain and two VTP files") {
   const testing::scratch_folder folder("vtu_files");
-  const auto summary = io::vtu_writer{}(cubes.distributed(), folder);
+  const auto summary = io::vtu_writer{}(cubes_in_eight.distributed(), folder);
   CHECK(names_in(folder) == std::set<std::string>{"mesh.pvtu", "mesh_0000.vtu", "mesh_0001.vtu",
                                                   "mesh_0002.vtu", "mesh_0003.vtu", "mesh_0004.vtu",
                                                   "mesh_0005.vtu", "mesh_0006.vtu", "mesh_0007.vtu",
@@ -49,10 +48,10 @@ TEST_CASE("a mesh becomes one PVTU, a VTU per subdomain and two VTP files") {
 
 TEST_CASE("files of an earlier mesh in the folder disappear, other files stay") {
   const testing::scratch_folder folder("vtu_stale");
-  io::vtu_writer{}(cubes.distributed(), folder);
+  io::vtu_writer{}(cubes_in_eight.distributed(), folder);
   testing::write_content(folder / "mesh_mine.vtu", "x");
   testing::write_content(folder / "notes.txt", "x");
-  io::vtu_writer{.files = 3}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 3}(cubes_in_eight.distributed(), folder);
   CHECK(names_in(folder) == std::set<std::string>{"mesh.pvtu", "mesh_0000.vtu", "mesh_0001.vtu",
                                                   "mesh_0002.vtu", "mesh_mine.vtu", "notes.txt",
                                                   "surface.vtp", "interfaces.vtp"});
@@ -60,7 +59,7 @@ TEST_CASE("files of an earlier mesh in the folder disappear, other files stay") 
 
 TEST_CASE("pieces are loaded once, in order") {
   const testing::scratch_folder folder("vtu_streaming");
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_eight.distributed();
   std::vector<local_id> loads;
   mesh.load = [&, load = mesh.load](local_id p) {
     loads.push_back(p);
@@ -75,7 +74,7 @@ TEST_CASE("pieces are loaded once, in order") {
 
 TEST_CASE("a file that would not fit leaves no trace, and the error names it") {
   const testing::scratch_folder folder("vtu_full");
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_eight.distributed();
   const auto refused = [&](std::size_t bytes, const auto& writer, const char* file) {
     const testing::file_size_limit limit(bytes);
     CHECK_THROWS_WITH_AS(writer(mesh, folder), doctest::Contains(file), io_error);
@@ -88,10 +87,10 @@ TEST_CASE("a file that would not fit leaves no trace, and the error names it") {
 
 TEST_CASE("a failure leaves an older mesh as it was") {
   const testing::scratch_folder folder("vtu_old");
-  io::vtu_writer{.files = 2}(cubes.distributed(), folder);
+  io::vtu_writer{.files = 2}(cubes_in_eight.distributed(), folder);
   const auto names = names_in(folder);
   const auto piece = testing::file_content(folder / "mesh_0001.vtu");
-  auto broken = cubes.distributed();
+  auto broken = cubes_in_eight.distributed();
   broken.load = [load = broken.load](local_id p) {
     if (p == 5)
       throw io_error("spool file lost");
@@ -105,7 +104,7 @@ TEST_CASE("a failure leaves an older mesh as it was") {
 TEST_CASE("a folder that cannot be made or written is an io_error that names it") {
   const testing::scratch_folder folder("vtu_unwritable");
   testing::write_content(folder / "file", "x");
-  const auto mesh = cubes.distributed();
+  const auto mesh = cubes_in_eight.distributed();
   CHECK_THROWS_WITH_AS(io::vtu_writer{}(mesh, folder / "file"), doctest::Contains("file"), io_error);
   CHECK_THROWS_WITH_AS(io::vtu_writer{}(mesh, folder / "file/below"), doctest::Contains("file/below"),
                        io_error);
@@ -128,21 +127,21 @@ TEST_CASE("a full device is an io_error when the buffer is flushed, at the lates
 
 TEST_CASE("output to nested folders that do not exist yet") {
   const testing::scratch_folder folder("vtu_nested");
-  io::vtu_writer{.stem = "part"}(cubes.distributed(), folder / "a/b/c");
+  io::vtu_writer{.stem = "part"}(cubes_in_eight.distributed(), folder / "a/b/c");
   CHECK(std::filesystem::exists(folder / "a/b/c/part.pvtu"));
 }
 
 TEST_CASE("two writings of the same mesh are the same bytes") {
   const testing::scratch_folder folder("vtu_same");
-  io::vtu_writer{}(cubes.distributed(), folder / "a");
-  io::vtu_writer{}(cubes.distributed(), folder / "b");
+  io::vtu_writer{}(cubes_in_eight.distributed(), folder / "a");
+  io::vtu_writer{}(cubes_in_eight.distributed(), folder / "b");
   for (const auto& name : names_in(folder / "a"))
     CHECK(testing::file_content(folder / "a" / name) == testing::file_content(folder / "b" / name));
 }
 
 TEST_CASE("skeleton points that no triangle of the subdomain has are refused") {
   const testing::scratch_folder folder("vtu_disagree");
-  auto mesh = cubes.distributed();
+  auto mesh = cubes_in_eight.distributed();
   mesh.load = [load = mesh.load](local_id p) {
     auto piece = load(p);
     if (p == 2)

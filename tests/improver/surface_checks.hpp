@@ -24,12 +24,12 @@ using dovetail::local_id;
 using dovetail::simplex;
 using dovetail::vec2;
 using dovetail::vec3;
-using mesh_type = dovetail::simplicial_mesh<2>;
-using frozen_type = dovetail::frozen_entities<2>;
+using triangle_mesh = dovetail::simplicial_mesh<2>;
+using frozen_edges = dovetail::frozen_entities<2>;
 /// An edge by its coordinates, so that renumbering of points does not matter.
 using placed_edge = std::array<std::array<double, 3>, 2>;
 
-inline placed_edge place(const mesh_type& mesh, std::array<local_id, 2> v) {
+inline placed_edge place(const triangle_mesh& mesh, std::array<local_id, 2> v) {
   placed_edge edge;
   for (std::size_t k = 0; k < 2; ++k) {
     const vec3 p = mesh.points[v[k]];
@@ -40,7 +40,7 @@ inline placed_edge place(const mesh_type& mesh, std::array<local_id, 2> v) {
 }
 
 /// Edges with other than two triangles, and those between two tags.
-inline std::set<placed_edge> fixed_edges(const mesh_type& mesh) {
+inline std::set<placed_edge> fixed_edges(const triangle_mesh& mesh) {
   const auto sides = dovetail::build_sides(mesh);
   std::set<placed_edge> result;
   for (std::size_t s = 0; s < sides.size(); ++s) {
@@ -50,7 +50,7 @@ inline std::set<placed_edge> fixed_edges(const mesh_type& mesh) {
   }
   return result;
 }
-inline std::set<placed_edge> all_edges(const mesh_type& mesh) {
+inline std::set<placed_edge> all_edges(const triangle_mesh& mesh) {
   std::set<placed_edge> result;
   for (const auto& side : dovetail::build_sides(mesh).vertices)
     result.insert(place(mesh, side));
@@ -58,14 +58,14 @@ inline std::set<placed_edge> all_edges(const mesh_type& mesh) {
 }
 
 /// Triangles that do not turn left seen from above, exactly.
-inline std::size_t turned_over(const mesh_type& mesh) {
+inline std::size_t turned_over(const triangle_mesh& mesh) {
   return static_cast<std::size_t>(
       std::count_if(mesh.elements.begin(), mesh.elements.end(), [&](const simplex<2>& triangle) {
         const auto p = dovetail::corners(std::span(mesh.points), triangle);
         return dovetail::orient2d({p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}) <= 0;
       }));
 }
-inline std::map<local_id, double> area_per_tag(const mesh_type& mesh) {
+inline std::map<local_id, double> area_per_tag(const triangle_mesh& mesh) {
   std::map<local_id, double> areas;
   for (std::size_t t = 0; t < mesh.elements.size(); ++t) {
     const auto p = dovetail::corners(std::span(mesh.points), mesh.elements[t]);
@@ -76,7 +76,8 @@ inline std::map<local_id, double> area_per_tag(const mesh_type& mesh) {
 
 /// Checks all that the concept promises of a change of a valid mesh.
 /// (A removed point before a frozen one leaves a number that nothing can take.)
-inline void check_change(const mesh_type& before, const mesh_type& after, const frozen_type& frozen = {}) {
+inline void check_change(const triangle_mesh& before, const triangle_mesh& after,
+                         const frozen_edges& frozen = {}) {
   const auto validity = dovetail::check_validity(
       after, {.closed_boundary = false, .non_manifold_sides = true, .isolated_points = true});
   CHECK_MESSAGE(validity.valid(), validity.text());
@@ -98,13 +99,13 @@ inline void check_change(const mesh_type& before, const mesh_type& after, const 
 }
 
 /// A jittered grid without its points near some random places: a plane mesh with holes, in two tags.
-inline mesh_type holed_squares(int n, double jitter, std::uint64_t seed) {
+inline triangle_mesh holed_squares(int n, double jitter, std::uint64_t seed) {
   auto mesh = dovetail_test::jittered_squares(n, jitter, seed, 0);
   dovetail_test::random_numbers random(seed);
   std::vector<vec3> holes;
   for (int k = 0; k < 2; ++k)
     holes.push_back({0.2 + 0.6 * random.unit(), 0.2 + 0.6 * random.unit(), 0});
-  mesh_type cut{mesh.points, {}, {}};
+  triangle_mesh cut{mesh.points, {}, {}};
   for (const auto& triangle : mesh.elements) {
     const auto p = dovetail::corners(std::span(mesh.points), triangle);
     const vec3 middle = (p[0] + p[1] + p[2]) / 3;
@@ -115,7 +116,7 @@ inline mesh_type holed_squares(int n, double jitter, std::uint64_t seed) {
   }
   // Without the points that the holes have left alone.
   std::vector<local_id> number(cut.points.size(), dovetail::no_id);
-  mesh_type kept{{}, cut.elements, cut.tags};
+  triangle_mesh kept{{}, cut.elements, cut.tags};
   for (auto& triangle : kept.elements)
     for (local_id& v : triangle) {
       local_id& name = number[v];
@@ -130,16 +131,16 @@ inline mesh_type holed_squares(int n, double jitter, std::uint64_t seed) {
 
 /// The plane mesh bent by `map`, a function of (x, y).
 template <class Map>
-mesh_type bent(mesh_type mesh, const Map& map) {
+triangle_mesh bent(triangle_mesh mesh, const Map& map) {
   for (vec3& p : mesh.points)
     p = map(p.x, p.y);
   return mesh;
 }
 
 /// A closed surface: the six sides of a cube as jittered grids, joined; pushed onto the unit sphere or not.
-inline mesh_type closed_cube(int n, double jitter, std::uint64_t seed, bool onto_sphere) {
+inline triangle_mesh closed_cube(int n, double jitter, std::uint64_t seed, bool onto_sphere) {
   std::map<std::array<long, 3>, local_id> known;
-  mesh_type result;
+  triangle_mesh result;
   for (int side = 0; side < 6; ++side) {
     auto square = dovetail_test::jittered_squares(n, jitter, seed + static_cast<std::uint64_t>(side), 0);
     std::vector<local_id> number;

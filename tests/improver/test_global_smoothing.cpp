@@ -22,7 +22,7 @@ float value_of(const tet_complex& mesh, local_id e) {
       measure_of<measure>(mesh.point(v[0]), mesh.point(v[1]), mesh.point(v[2]), mesh.point(v[3])));
 }
 
-tet_complex complex_from(mesh_type mesh) {
+tet_complex judged_complex(mesh_type mesh) {
   tet_complex complex = take_mesh(mesh, {});
   for (local_id e = 0; e < complex.element_slots(); ++e)
     complex.set_value(e, value_of(complex, e));
@@ -63,7 +63,7 @@ TEST_CASE("a vertex goes to the weighted average of the circumcentres, or half w
   int moved = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     CAPTURE(seed);
-    tet_complex mesh = complex_from(dovetail_test::jittered_cubes(2, 0.15, seed)); // one inner vertex
+    tet_complex mesh = judged_complex(dovetail_test::jittered_cubes(2, 0.15, seed)); // one inner vertex
     local_id inner = 0;
     while (!mesh.is_free(inner))
       ++inner;
@@ -100,7 +100,7 @@ TEST_CASE("no element gets worse than the worst around its vertex was, and no po
   std::size_t moved = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     CAPTURE(seed);
-    tet_complex mesh = complex_from(squeezed_cubes(4, seed, seed % 3 == 0 ? 0.3 : 1));
+    tet_complex mesh = judged_complex(squeezed_cubes(4, seed, seed % 3 == 0 ? 0.3 : 1));
     global_smoothing<measure> smoothing;
     const global_smoothing_limits limits{.must_raise_mean = seed % 2 == 0, .target = target};
     for (local_id v = 0; v < mesh.vertex_slots(); ++v) {
@@ -139,7 +139,7 @@ TEST_CASE("no element gets worse than the worst around its vertex was, and no po
 TEST_CASE("the mean rises, and with it the worst does not fall") {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     CAPTURE(seed);
-    tet_complex mesh = complex_from(dovetail_test::jittered_cubes(8, 0.15, seed));
+    tet_complex mesh = judged_complex(dovetail_test::jittered_cubes(8, 0.15, seed));
     const auto before = values_of(mesh);
     const auto counts = global_smoothing<measure>().run(mesh, {.passes = 2});
     const auto after = values_of(mesh);
@@ -171,7 +171,7 @@ TEST_CASE("edges stay in the band around a sizing field") {
   const dovetail::any_sizing field = [](vec3) { return 0.25; };
   const global_smoothing_limits limits{.must_raise_mean = false, .band = {&field, 0.8, 1.2}};
   std::size_t moved = 0;
-  tet_complex mesh = complex_from(dovetail_test::jittered_cubes(5, 0.15, 3));
+  tet_complex mesh = judged_complex(dovetail_test::jittered_cubes(5, 0.15, 3));
   const auto lengths_at = [&mesh](local_id v) {
     edge_lengths lengths;
     for (local_id e = 0; e < mesh.element_slots(); ++e) {

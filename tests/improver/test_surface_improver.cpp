@@ -19,7 +19,7 @@ native preset(std::uint64_t i) {
   return i % 3 == 0 ? native::fast() : i % 3 == 1 ? native::fine() : native::finest();
 }
 
-double distance_to(const mesh_type& surface, vec3 p) {
+double distance_to(const triangle_mesh& surface, vec3 p) {
   double least = 1e300;
   for (const auto& triangle : surface.elements) {
     const auto c = dovetail::corners(std::span(surface.points), triangle);
@@ -30,7 +30,7 @@ double distance_to(const mesh_type& surface, vec3 p) {
 }
 
 /// Each inner point of a plane grid gets a partner next to it: needles at one end, slivers at the other.
-mesh_type needles_and_slivers(int n, std::uint64_t seed, double apart) {
+triangle_mesh needles_and_slivers(int n, std::uint64_t seed, double apart) {
   auto mesh = dovetail_test::jittered_squares(n, 0.2, seed, 0);
   dovetail_test::random_numbers random(seed);
   const std::size_t count = mesh.elements.size();
@@ -72,7 +72,7 @@ TEST_CASE("frozen lines and points inside a mesh stay, bit for bit") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
     const auto mesh = dovetail_test::jittered_squares(14, 0.3, seed, 0.1);
-    frozen_type frozen;
+    frozen_edges frozen;
     frozen.points = 60;
     const auto sides = dovetail::build_sides(mesh);
     for (std::size_t s = seed; s < sides.size(); s += 11)
@@ -101,11 +101,11 @@ TEST_CASE("needles and slivers go") {
 
 TEST_CASE("a better preset reaches more, and a second run finds little to do") {
   const auto mesh = dovetail_test::jittered_squares(60, 0.3, 3, 0.1);
-  const auto count = [&](const native& improver, mesh_type& result) {
+  const auto count = [&](const native& improver, triangle_mesh& result) {
     result = mesh;
     return improver(result);
   };
-  mesh_type fast, fine, again;
+  triangle_mesh fast, fine, again;
   count(native::fast(), fast);
   const auto first = count(native::fine(), fine);
   CHECK(dovetail::measure_quality(fast).min_dihedrals.below(30) == 0);
@@ -135,7 +135,7 @@ TEST_CASE("small meshes of all kinds, squeezed, shuffled, with frozen points") {
         p.y *= 0.1;
     if (seed % 3 == 0)
       mesh = dovetail_test::shuffled(mesh, seed);
-    frozen_type frozen;
+    frozen_edges frozen;
     frozen.points = static_cast<local_id>(random.bits() % (mesh.points.size() / 2));
     auto result = mesh;
     preset(seed)(result, frozen);
@@ -188,7 +188,7 @@ TEST_CASE("triangles that are turned over in the plane are mended where possible
 }
 
 TEST_CASE("sheets that meet in a line keep it") {
-  mesh_type mesh;
+  triangle_mesh mesh;
   for (int sheet = 0; sheet < 3; ++sheet) {
     const auto square = dovetail_test::jittered_squares(8, 0.25, static_cast<std::uint64_t>(sheet), 0);
     const double angle = 2.1 * sheet;
@@ -225,7 +225,7 @@ TEST_CASE("edges stay in the stated band around the sizing field") {
   const double size = 0.05;
   auto result = mesh;
   improver(result, {}, [&](vec3) { return size; });
-  const auto range = [](const mesh_type& m) {
+  const auto range = [](const triangle_mesh& m) {
     std::array<double, 2> found{1e300, 0};
     for (const auto& side : dovetail::build_sides(m).vertices) {
       const double length = distance(m.points[side[0]], m.points[side[1]]);
@@ -239,10 +239,10 @@ TEST_CASE("edges stay in the stated band around the sizing field") {
 }
 
 TEST_CASE("a mesh that is none is refused") {
-  const auto refuses = [](mesh_type mesh, const frozen_type& frozen = {}) {
+  const auto refuses = [](triangle_mesh mesh, const frozen_edges& frozen = {}) {
     CHECK_THROWS_AS(native()(mesh, frozen), dovetail::mesh_error);
   };
-  const mesh_type good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}}, {}};
+  const triangle_mesh good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {2, 1, 3}}, {}};
   refuses({good.points, {{0, 1, 4}}, {}});
   refuses({good.points, {{0, 1, 1}}, {}});
   refuses({good.points, good.elements, {1}});
@@ -252,7 +252,7 @@ TEST_CASE("a mesh that is none is refused") {
   auto small = good;
   native()(small);
   CHECK(small.elements.size() == 2);
-  mesh_type empty;
+  triangle_mesh empty;
   native()(empty);
   CHECK(empty.elements.empty());
 }

@@ -28,7 +28,7 @@ vec3 on_cylinder(double x, double y) {
 }
 
 /// Every triangle faces outwards of a surface around the origin or the z axis.
-std::size_t facing_inwards(const mesh_type& mesh, const surface_host& host) {
+std::size_t facing_inwards(const triangle_mesh& mesh, const surface_host& host) {
   return static_cast<std::size_t>(
       std::count_if(mesh.elements.begin(), mesh.elements.end(), [&](const simplex<2>& triangle) {
         const auto p = dovetail::corners(std::span(mesh.points), triangle);

@@ -301,10 +301,14 @@ TEST_CASE("An unusable field and a mesher in threads are typed errors") {
                                 parallel::threads{1}));
 }
 
+namespace {
+
 struct fan_mesher_for_threads : fan_mesher {
   static constexpr mesher_traits traits{
       .keeps_boundary = true, .thread_safe = true, .repeats_in_process = true};
 };
+
+} // namespace
 
 TEST_CASE("In threads no attempt may be a mesher that must not run there") {
   const any_mesher<3> alone(fan_mesher_for_threads{}, "safe");
@@ -315,6 +319,8 @@ TEST_CASE("In threads no attempt may be a mesher that must not run there") {
                        doctest::Contains("'unsafe'"), usage_error);
 }
 
+namespace {
+
 struct forking_mesher : fan_mesher {
   std::vector<forking_mesher> fallbacks() const { return {}; }
   mesher_result<3> operator()(const mesher_input<3>& in, const any_sizing& size) const {
@@ -322,6 +328,8 @@ struct forking_mesher : fan_mesher {
     return fan_mesher::operator()(in, size);
   }
 };
+
+} // namespace
 
 TEST_CASE("A mesher that cannot fork here is a usage_error, and no other one takes its place") {
   const any_mesher<3> forks = any_mesher<3>(forking_mesher{}, "forks").with_fallback({fan_mesher{}, "fan"});

@@ -13,12 +13,12 @@ using namespace dovetail::testing;
 
 namespace {
 
-const scratch_folder folder("test_discrete_read");
+const scratch_folder read_folder("test_discrete_read");
 
 /// Reads a file of this text; the message when that is refused.
 std::string refusal(const std::string& name, const std::string& text) {
-  write_content(folder / name, text);
-  return refusal_of<input_error>([&] { return read_triangles(folder / name); });
+  write_content(read_folder / name, text);
+  return refusal_of<input_error>([&] { return read_triangles(read_folder / name); });
 }
 
 double area(const triangle_soup& soup) {
@@ -63,10 +63,10 @@ std::string binary_ply(bool big) {
 
 TEST_CASE("STL text and binary give the triangles written") {
   const auto box = box_soup({0, 0, 0}, {1, 2, 3}, 2);
-  write_text_stl(folder / "box.stl", box);
-  write_binary_stl(folder / "binary.STL", box);
-  const auto text = read_triangles(folder / "box.stl");
-  const auto binary = read_triangles(folder / "binary.STL");
+  write_text_stl(read_folder / "box.stl", box);
+  write_binary_stl(read_folder / "binary.STL", box);
+  const auto text = read_triangles(read_folder / "box.stl");
+  const auto binary = read_triangles(read_folder / "binary.STL");
   CHECK(text.triangles.size() == 48);
   CHECK(binary.triangles.size() == 48);
   CHECK(area(text) == doctest::Approx(22));
@@ -77,29 +77,29 @@ TEST_CASE("STL text and binary give the triangles written") {
 }
 
 TEST_CASE("OBJ, OFF and PLY give the square written") {
-  write_content(folder / "a.obj", "# square\nv 0 0 0\nv 2 0 0\nv 2 2 0\nvn 0 0 1\nv 0 2 0\ng lid one\n"
-                                  "f 1/1 2/2/1 3//1 -1\n");
-  write_content(folder / "a.off", "OFF\n# counts\n4 1 0\n" + square_points + "4 0 1 2 3\n");
-  write_content(folder / "b.off", "OFF 4 2 0\n" + square_points + "3 0 1 2 255 0 0\n3 0 2 3\n");
-  write_content(folder / "a.ply",
+  write_content(read_folder / "a.obj", "# square\nv 0 0 0\nv 2 0 0\nv 2 2 0\nvn 0 0 1\nv 0 2 0\ng lid one\n"
+                                       "f 1/1 2/2/1 3//1 -1\n");
+  write_content(read_folder / "a.off", "OFF\n# counts\n4 1 0\n" + square_points + "4 0 1 2 3\n");
+  write_content(read_folder / "b.off", "OFF 4 2 0\n" + square_points + "3 0 1 2 255 0 0\n3 0 2 3\n");
+  write_content(read_folder / "a.ply",
                 "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
                 "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
                 "end_header\n" +
                     square_points + "4 0 1 2 3\n");
-  write_content(folder / "b.ply", binary_ply(false));
-  write_content(folder / "c.ply", binary_ply(true));
+  write_content(read_folder / "b.ply", binary_ply(false));
+  write_content(read_folder / "c.ply", binary_ply(true));
   for (const char* name : {"a.obj", "a.off", "b.off", "a.ply", "b.ply", "c.ply"}) {
     CAPTURE(name);
-    const auto soup = read_triangles(folder / name);
+    const auto soup = read_triangles(read_folder / name);
     CHECK(soup.triangles.size() == 2);
     CHECK(soup.groups.size() == 2);
     CHECK(area(soup) == doctest::Approx(4));
   }
-  CHECK(read_triangles(folder / "a.obj").group_names == std::vector<std::string>{"lid one"});
+  CHECK(read_triangles(read_folder / "a.obj").group_names == std::vector<std::string>{"lid one"});
 }
 
 TEST_CASE("bad files are refused with their names") {
-  CHECK_THROWS_AS(read_triangles(folder / "missing.stl"), input_error);
+  CHECK_THROWS_AS(read_triangles(read_folder / "missing.stl"), input_error);
   CHECK(has(refusal("a.xyz", "x"), "a.xyz: unknown kind"));
   CHECK(has(refusal("empty.stl", ""), "empty.stl: the file is empty"));
   CHECK(has(refusal("none.stl", "solid x\nendsolid x\n"), "no triangle"));
@@ -125,8 +125,8 @@ TEST_CASE("bad files are refused with their names") {
 }
 
 TEST_CASE("a binary STL of the wrong size is told") {
-  write_binary_stl(folder / "whole.stl", box_soup({0, 0, 0}, {1, 1, 1}, 3));
-  std::ifstream in(folder / "whole.stl", std::ios::binary);
+  write_binary_stl(read_folder / "whole.stl", box_soup({0, 0, 0}, {1, 1, 1}, 3));
+  std::ifstream in(read_folder / "whole.stl", std::ios::binary);
   std::stringstream whole;
   whole << in.rdbuf();
   const std::string message = refusal("part.stl", "X" + whole.str().substr(1, 1000));

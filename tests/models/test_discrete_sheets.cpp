@@ -22,7 +22,7 @@ oriented_surfaces repaired_sheet(const triangle_soup& soup) {
   return repaired(soup, "sheet.stl", sheets_allowed);
 }
 
-discrete_model model_of(const triangle_soup& soup) {
+discrete_model sheet_model(const triangle_soup& soup) {
   discrete_model model(repaired_sheet(soup), {.allow_sheets = true});
   for (const std::string& fault : faults_of(model))
     FAIL_CHECK(fault);
@@ -93,7 +93,7 @@ TEST_CASE("a sheet's triangles are turned to the side of most of them") {
 }
 
 TEST_CASE("a plane sheet is one face with four curves") {
-  const auto model = model_of(sheet_soup(4, [](double, double) { return 0.0; }));
+  const auto model = sheet_model(sheet_soup(4, [](double, double) { return 0.0; }));
   CHECK(model.topology().faces.size() == 1);
   CHECK(model.topology().curves.size() == 4);
   CHECK(model.topology().vertices.size() == 4);
@@ -103,7 +103,7 @@ TEST_CASE("a plane sheet is one face with four curves") {
 }
 
 TEST_CASE("a box without its lid has five faces, and a rim") {
-  const auto model = model_of(open_box_soup({0, 0, 0}, {1, 2, 3}, 4));
+  const auto model = sheet_model(open_box_soup({0, 0, 0}, {1, 2, 3}, 4));
   CHECK(model.topology().faces.size() == 5);
   CHECK(model.topology().curves.size() == 12);
   CHECK(model.topology().vertices.size() == 8);
@@ -111,7 +111,7 @@ TEST_CASE("a box without its lid has five faces, and a rim") {
 }
 
 TEST_CASE("a strongly curved sheet is cut into charts that end at its rim") {
-  const auto model = model_of(sheet_soup(30, [](double x, double y) { return 2 * (x * x + y * y); }));
+  const auto model = sheet_model(sheet_soup(30, [](double x, double y) { return 2 * (x * x + y * y); }));
   CHECK(model.topology().faces.size() > 1);
   CHECK(model.topology().faces.size() < 20);
   // The rim: four parabolas z = 2 + 2 t^2 between -1 and 1.
@@ -128,13 +128,13 @@ TEST_CASE("a sheet with a hole, and one with corners that touch") {
     return std::abs(center.x) < 0.33 && std::abs(center.y) < 0.33;
   });
   soup.groups.resize(soup.triangles.size());
-  const auto holed = model_of(soup);
+  const auto holed = sheet_model(soup);
   CHECK(holed.topology().faces[0].loops.size() == 2);
 
   auto bow = sheet_soup(2, [](double, double) { return 0.0; });
   bow.triangles = {bow.triangles[0], bow.triangles[1], bow.triangles[6], bow.triangles[7]};
   bow.groups.resize(4);
-  const auto touching = model_of(bow);
+  const auto touching = sheet_model(bow);
   CHECK(touching.topology().faces.size() == 2);
   CHECK(rim_length(touching) == doctest::Approx(8));
 }
@@ -142,7 +142,7 @@ TEST_CASE("a sheet with a hole, and one with corners that touch") {
 TEST_CASE("a sheet beside a closed surface leaves its solid alone") {
   triangle_soup soup = box_soup({-3, -3, -3}, {3, 3, 3}, 2);
   append(soup, sheet_soup(4, [](double x, double y) { return 0.1 * x * y; }));
-  const auto model = model_of(soup);
+  const auto model = sheet_model(soup);
   CHECK(model.topology().solids.size() == 1);
   CHECK(model.topology().faces.size() == 7);
   std::size_t free = 0;

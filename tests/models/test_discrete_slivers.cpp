@@ -82,7 +82,7 @@ private:
   triangle_soup soup_;
 };
 
-discrete_model model_of(const triangle_soup& soup) {
+discrete_model repaired_model(const triangle_soup& soup) {
   return discrete_model(repaired(soup));
 }
 
@@ -96,7 +96,7 @@ double feature_length(const discrete_model& model) {
 
 /// Where a model's features are those of the unit cube, whatever slivers lie along its edges.
 void check_cube(const triangle_soup& soup) {
-  const auto model = model_of(soup);
+  const auto model = repaired_model(soup);
   CHECK(model.topology().faces.size() == 6);
   CHECK(feature_length(model) == doctest::Approx(12).epsilon(1e-4));
   for (const std::string& fault : faults_of(model))
@@ -215,7 +215,7 @@ TEST_CASE("nor do needles at a corner, whose short edges lie on sharp ones") {
   const local_id corner = cube.point_at({1, 1, 1});
   for (const vec3 to : {vec3{0, 1, 1}, vec3{1, 0, 1}, vec3{1, 1, 0}}) {
     cube.add_needles(corner, cube.point_at(to), 1e-6);
-    const auto model = model_of(cube.soup());
+    const auto model = repaired_model(cube.soup());
     CHECK(model.topology().faces.size() == 6);
     CHECK(feature_length(model) == doctest::Approx(12).epsilon(1e-4));
   }
@@ -228,23 +228,23 @@ TEST_CASE("a smooth surface stays smooth with slivers all over it") {
     ball.add_cap(ball.triangle(t)[0], ball.triangle(t)[1], 0.5, t % 4 == 0 ? 1e-6 : 1e-8);
   for (std::size_t t = 1; t < triangles; t += 6)
     ball.add_needles(ball.triangle(t)[0], ball.triangle(t)[1], 1e-6);
-  const auto model = model_of(ball.soup());
+  const auto model = repaired_model(ball.soup());
   CHECK(feature_length(model) == 0);
   CHECK(model.topology().faces.size() <= 16);
 
   sliver_maker prism(rounded_prism(0.1));
-  const double before = feature_length(model_of(prism.soup()));
+  const double before = feature_length(repaired_model(prism.soup()));
   CHECK(before > 7);
   for (std::size_t t = 0; t < 48; ++t) // slivers on long edges and needles at their ends
     if (const auto v = prism.triangle(t); prism.point(v[0]).z != prism.point(v[1]).z)
       prism.add_cap(v[0], v[1], 0.4, 1e-6);
-  const auto filleted = model_of(prism.soup());
+  const auto filleted = repaired_model(prism.soup());
   CHECK(feature_length(filleted) == doctest::Approx(before).epsilon(1e-4));
 }
 
 TEST_CASE("a sharp edge stays one when its faces are smoothly joined at one place of it") {
   for (const double radius : {0.03, 0.01, 0.001}) {
-    const auto model = model_of(cube_with_a_nick(radius));
+    const auto model = repaired_model(cube_with_a_nick(radius));
     CAPTURE(radius);
     CHECK(feature_length(model) > 11.85);
     CHECK(feature_length(model) < 12.15);

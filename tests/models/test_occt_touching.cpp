@@ -134,17 +134,18 @@ TEST_CASE("a sheet as thin as the length stays") {
 
 TEST_CASE("sectors of a solid around an edge are beside each other, or in each other") {
   using occt::sectors_are_apart;
-  const double pi = std::numbers::pi;
-  CHECK(sectors_are_apart({{0, 1}, {pi / 2, -1}, {-pi, 1}, {-pi / 2, -1}}));
+  const double half_turn = std::numbers::pi;
+  CHECK(sectors_are_apart({{0, 1}, {half_turn / 2, -1}, {-half_turn, 1}, {-half_turn / 2, -1}}));
   CHECK(sectors_are_apart({{1, -1}, {2, 1}, {3, -1}, {-1, 1}}));
   // Two planes that cross, the solid below both: between them it is there twice.
-  CHECK_FALSE(sectors_are_apart({{0, -1}, {0.5, -1}, {pi, 1}, {0.5 - pi, 1}}));
+  CHECK_FALSE(sectors_are_apart({{0, -1}, {0.5, -1}, {half_turn, 1}, {0.5 - half_turn, 1}}));
   // A sector in another one.
   CHECK_FALSE(sectors_are_apart({{-1, 1}, {-0.5, 1}, {0.5, -1}, {1, -1}}));
   // Two cylinders that touch: their faces are tangent to each other, whatever order rounding puts them in.
   for (const double off : {1e-9, 0.0, -1e-9}) {
-    CHECK(sectors_are_apart({{pi / 2, -1}, {pi / 2 + off, 1}, {-pi / 2, 1}, {-pi / 2 + off, -1}}));
-    CHECK(sectors_are_apart({{pi, -1}, {off - pi, 1}, {0, 1}, {off, -1}}));
+    CHECK(sectors_are_apart(
+        {{half_turn / 2, -1}, {half_turn / 2 + off, 1}, {-half_turn / 2, 1}, {-half_turn / 2 + off, -1}}));
+    CHECK(sectors_are_apart({{half_turn, -1}, {off - half_turn, 1}, {0, 1}, {off, -1}}));
   }
 }
 

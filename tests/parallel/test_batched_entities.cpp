@@ -51,12 +51,13 @@ std::size_t make_and_check(batched_entities<byte_buffer>& entities, const std::v
   return entities.made() - before;
 }
 
-const std::vector<any_executor> executors{parallel::serial{}, parallel::threads{3}, parallel::processes{3}};
+const std::vector<any_executor> kinds_of_executor{parallel::serial{}, parallel::threads{3},
+                                                  parallel::processes{3}};
 
 } // namespace
 
 TEST_CASE("What is there is not made again, in memory and on disk, whoever runs the tasks") {
-  for (const any_executor& run : executors)
+  for (const any_executor& run : kinds_of_executor)
     for (const bool on_disk : {false, true}) {
       const testing::scratch_folder scratch("batches");
       const auto store = on_disk ? std::make_shared<entity_store>(spool::start(scratch, identity))
@@ -168,7 +169,7 @@ TEST_CASE("A blob that has gone is an error that names it") {
 
 TEST_CASE("What no other attempt mends is thrown as what it is, and nothing is made twice") {
   const auto keys = keys_from(1, 9);
-  for (const any_executor& run : executors) {
+  for (const any_executor& run : kinds_of_executor) {
     const testing::scratch_folder scratch("batches");
     const auto disk = spool::start(scratch, identity);
     batched_entities<byte_buffer> entities(std::make_shared<entity_store>(disk));

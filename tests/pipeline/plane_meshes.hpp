@@ -11,6 +11,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -20,6 +21,14 @@ inline generate_options in_parts(int subdomains) {
   generate_options options;
   options.subdomains = subdomains;
   return options;
+}
+
+inline constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+inline plane_domain unit_square() {
+  plane_drawing drawing;
+  drawing.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, "square"}};
+  return plane_domain(drawing);
 }
 
 /// The whole mesh on global point numbers.

@@ -125,7 +125,7 @@ TEST_CASE("a ball that is adapted ten times keeps its volume and its surface") {
     const report& told = made.summary.find("adaptation");
     drift += told.get("volume_after") - told.get("volume_before") - told.get("explained_change");
     CHECK(std::abs(drift) < 2e-3 * volume);
-    mesh = whole_mesh(made);
+    mesh = dovetail::whole_mesh(made);
     CHECK(volume_by_material(mesh.mesh)[0] == doctest::Approx(told.get("volume_after")));
     const auto [least, most] = radii(mesh.mesh); // of the polyhedron that it was at first: 0.9955 to 1
     CHECK(least > 0.9955);
@@ -138,7 +138,7 @@ TEST_CASE("materials, and ids of boundaries and interfaces, are the same after a
   const auto made = adapt<3>(old, uniform_size(0.12), by_tetgen());
   REQUIRE(made.failures.empty());
   CHECK(io::check_distributed(made.mesh).text() == "");
-  const auto next = whole_mesh(made);
+  const auto next = dovetail::whole_mesh(made);
   CHECK(next.mesh.elements.size() > 4 * old.mesh.elements.size());
   const auto before = volume_by_material(old.mesh), after = volume_by_material(next.mesh);
   REQUIRE(after.size() == before.size());
@@ -155,7 +155,7 @@ TEST_CASE("sizes at points are followed, and grow as fast as they may") {
   std::vector<double> sizes;
   for (const vec3& p : old.mesh.points)
     sizes.push_back(p.x < 0.5 ? 0.08 : 0.2);
-  const auto next = whole_mesh(adapt<3>(old, sizes, by_tetgen(), {.growth = 1}));
+  const auto next = dovetail::whole_mesh(adapt<3>(old, sizes, by_tetgen(), {.growth = 1}));
   CHECK(mean_edge(next.mesh, false) == doctest::Approx(0.08).epsilon(0.1));
   CHECK(mean_edge(next.mesh, true) > 0.15);
   sizes.assign(sizes.size(), 0.2);
@@ -183,7 +183,7 @@ TEST_CASE("triangles are adapted by the same template, with their ids") {
   for (local_id& tag : old.mesh.tags)
     tag += 50;
   const auto next =
-      whole_mesh(adapt<2>(old, std::vector<double>(old.mesh.points.size(), 0.15), parameters<>{}));
+      dovetail::whole_mesh(adapt<2>(old, std::vector<double>(old.mesh.points.size(), 0.15), parameters<>{}));
   CHECK(next.mesh.elements.size() > 2 * old.mesh.elements.size());
   const auto area_of = [](const simplicial_mesh<2>& mesh) {
     std::map<local_id, double> area;
@@ -217,7 +217,7 @@ TEST_CASE("edges of triangles keep their ids, and ids end where they did") {
   };
   const auto made = adapt<2>(old, uniform_size(0.09), parameters<>{});
   CHECK(made.summary.warnings.empty());
-  const auto next = whole_mesh(made);
+  const auto next = dovetail::whole_mesh(made);
   CHECK(next.sides.size() > old.sides.size());
   const auto before = length_by_id(old), after = length_by_id(next);
   REQUIRE(after.size() == 4);

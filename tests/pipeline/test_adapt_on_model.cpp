@@ -45,7 +45,7 @@ occt_model two_bodies(double radius = 0.7) {
   return occt_shape_from(both).model;
 }
 
-double volume_of(const simplicial_mesh<3>& mesh) {
+double volume_inside(const simplicial_mesh<3>& mesh) {
   const auto at = [&](local_id v) { return mesh.points[v]; };
   double sum = 0;
   for (const auto& [a, b, c, d] : mesh.elements)
@@ -72,7 +72,7 @@ std::map<local_id, double> volumes(const simplicial_mesh<3>& mesh) {
   }
   std::map<local_id, double> found;
   for (const auto& [tag, part] : parts)
-    found[tag] = volume_of(part);
+    found[tag] = volume_inside(part);
   return found;
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("rounds of refinement on a model come nearer to its volume; ids and ma
   const auto exact = occt_solid_volumes(model);
   auto mesh = first_mesh(model, 0.6);
   const auto areas_before = areas(mesh);
-  double volume = volume_of(mesh.mesh);
+  double volume = volume_inside(mesh.mesh);
   for (const double size : {0.45, 0.35, 0.27, 0.2}) {
     CAPTURE(size);
     const std::vector<double> sizes(mesh.mesh.points.size(), size);
@@ -103,9 +103,9 @@ TEST_CASE("rounds of refinement on a model come nearer to its volume; ids and ma
     const report& change = made.summary.find("adaptation");
     CHECK(change.warnings.empty());
     CHECK(change.get("volume_before") == doctest::Approx(volume).epsilon(1e-12));
-    mesh = whole_mesh(made);
-    CHECK(volume_of(mesh.mesh) > volume);
-    volume = volume_of(mesh.mesh);
+    mesh = dovetail::whole_mesh(made);
+    CHECK(volume_inside(mesh.mesh) > volume);
+    volume = volume_inside(mesh.mesh);
     CHECK(change.get("volume_after") == doctest::Approx(volume).epsilon(1e-9));
     const auto by_material = volumes(mesh.mesh);
     REQUIRE(by_material.size() == 2);
@@ -117,17 +117,18 @@ TEST_CASE("rounds of refinement on a model come nearer to its volume; ids and ma
       CHECK(now.at(id) == doctest::Approx(area).epsilon(0.15));
   }
   const auto fresh = io::gather(generate<3>(model, uniform_size(0.2), by_tetgen()).mesh);
-  CHECK(volume == doctest::Approx(volume_of(fresh.mesh)).epsilon(2e-3));
+  CHECK(volume == doctest::Approx(volume_inside(fresh.mesh)).epsilon(2e-3));
 }
 
 TEST_CASE("the model of the first adaptation serves the others") {
   auto mesh = first_mesh(two_bodies(), 0.3);
   const auto first = adapt<3>(mesh, uniform_size(0.25), by_tetgen());
-  mesh = whole_mesh(first);
-  const double volume = volume_of(mesh.mesh);
+  mesh = dovetail::whole_mesh(first);
+  const double volume = volume_inside(mesh.mesh);
   for (int round = 0; round < 4; ++round)
-    mesh = whole_mesh(adapt<3>(first.model, mesh, uniform_size(round % 2 == 0 ? 0.3 : 0.25), by_tetgen()));
-  CHECK(volume_of(mesh.mesh) == doctest::Approx(volume).epsilon(1e-3));
+    mesh = dovetail::whole_mesh(
+        adapt<3>(first.model, mesh, uniform_size(round % 2 == 0 ? 0.3 : 0.25), by_tetgen()));
+  CHECK(volume_inside(mesh.mesh) == doctest::Approx(volume).epsilon(1e-3));
   CHECK(volumes(mesh.mesh).size() == 2);
 }
 
@@ -196,7 +197,7 @@ TEST_CASE("triangles are adapted on their model, with ids of faces and edges") {
     const double area = made.summary.find("adaptation").get("area_after");
     CHECK(area > before);
     before = area;
-    mesh = whole_mesh(made);
+    mesh = dovetail::whole_mesh(made);
     for (const local_id tag : mesh.mesh.tags)
       REQUIRE(tag == 40);
     std::vector<local_id> now = mesh.side_ids;

@@ -22,15 +22,15 @@ using namespace dovetail;
 
 namespace {
 
-using surface = simplicial_mesh<2>;
+using triangle_mesh = simplicial_mesh<2>;
 
-void turn_over(surface& s, std::size_t triangle) {
+void turn_over(triangle_mesh& s, std::size_t triangle) {
   std::swap(s.elements[triangle][1], s.elements[triangle][2]);
 }
 
 /// Joins points at one place and leaves one of equal triangles.
-surface joined(const surface& s) {
-  surface result;
+triangle_mesh joined(const triangle_mesh& s) {
+  triangle_mesh result;
   const auto same = [](vec3 a, vec3 b) { return distance(a, b) < 1e-9; };
   std::vector<local_id> number;
   for (const vec3 p : s.points) {
@@ -53,15 +53,15 @@ surface joined(const surface& s) {
 }
 
 /// Two cubes side by side, with one wall between them.
-surface two_rooms() {
-  surface s = shapes::cube(3);
+triangle_mesh two_rooms() {
+  triangle_mesh s = shapes::cube(3);
   shapes::append(s, shapes::cube(3, 1, {1, 0, 0}));
   return joined(s);
 }
 
 /// Points bit for bit, each triangle a side with elements where materials are said to be, elements positive
 /// and as large as what they fill.
-void check_filled(const surface& given, const filled_surface& made, double volume) {
+void check_filled(const triangle_mesh& given, const filled_surface& made, double volume) {
   const simplicial_mesh<3>& mesh = made.mesh;
   REQUIRE(mesh.points.size() >= given.points.size());
   CHECK(std::memcmp(mesh.points.data(), given.points.data(), given.points.size() * sizeof(vec3)) == 0);
@@ -108,12 +108,12 @@ void check_filled(const surface& given, const filled_surface& made, double volum
   }
 }
 
-double inside(const surface& s) {
+double inside(const triangle_mesh& s) {
   return enclosed_volume(span_of(s.points), span_of(s.elements));
 }
 
 template <class Error>
-void check_refused(const surface& s, const char* text, const fill_options& options = {}) {
+void check_refused(const triangle_mesh& s, const char* text, const fill_options& options = {}) {
   CHECK_THROWS_WITH_AS(fill(s, options), doctest::Contains(text), Error);
 }
 
@@ -145,7 +145,7 @@ TEST_CASE("a small source between the samples of a rough prediction is refused b
 }
 
 TEST_CASE("a cube is filled in sizes of its own, the same by any executor") {
-  const surface cube = shapes::cube(6);
+  const triangle_mesh cube = shapes::cube(6);
   const auto made = fill(cube);
   check_filled(cube, made, 1);
   CHECK(made.regions.size() == 1);
@@ -161,8 +161,8 @@ TEST_CASE("a cube is filled in sizes of its own, the same by any executor") {
 
 TEST_CASE("a shell oriented inwards is a void, one oriented outwards a body in the body") {
   for (const bool is_void : {true, false}) {
-    surface s = shapes::cube(6);
-    const surface ball = shapes::sphere(2, 0.25, {0.5, 0.5, 0.5});
+    triangle_mesh s = shapes::cube(6);
+    const triangle_mesh ball = shapes::sphere(2, 0.25, {0.5, 0.5, 0.5});
     shapes::append(s, ball, is_void);
     const auto made = fill(s);
     check_filled(s, made, is_void ? 1 - inside(ball) : 1);
@@ -173,7 +173,7 @@ TEST_CASE("a shell oriented inwards is a void, one oriented outwards a body in t
 }
 
 TEST_CASE("bodies in voids of bodies, and bodies beside each other") {
-  surface s = shapes::cube(4, 4);
+  triangle_mesh s = shapes::cube(4, 4);
   shapes::append(s, shapes::cube(3, 3, {0.5, 0.5, 0.5}), true);
   shapes::append(s, shapes::cube(2, 2, {1, 1, 1}));
   shapes::append(s, shapes::cube(2, 1, {1.5, 1.5, 1.5}), true);
@@ -186,7 +186,7 @@ TEST_CASE("bodies in voids of bodies, and bodies beside each other") {
 }
 
 TEST_CASE("an inner wall divides a box into two materials, whatever its orientation") {
-  surface s = two_rooms();
+  triangle_mesh s = two_rooms();
   for (const bool turned : {false, true}) {
     const auto made = fill(s);
     check_filled(s, made, 2);
@@ -204,7 +204,7 @@ TEST_CASE("an inner wall divides a box into two materials, whatever its orientat
 
 TEST_CASE("a wall with one region on both sides has elements on both") {
   // A ring with a square across it.
-  surface s = shapes::cells(
+  triangle_mesh s = shapes::cells(
       shapes::block({0, 0, 0}, {3, 3, 1}, [](int x, int y, int) { return x != 1 || y != 1; }), {1, 1, 1});
   const auto corner = [&](double y, double z) {
     const auto place = std::find(s.points.begin(), s.points.end(), vec3{1, y, z});
@@ -221,20 +221,20 @@ TEST_CASE("a wall with one region on both sides has elements on both") {
 }
 
 TEST_CASE("regions of a body that touch in edges and points") {
-  const surface s = shapes::cells({{0, 0, 0}, {1, 1, 0}, {2, 2, 1}}, {1, 1, 1});
+  const triangle_mesh s = shapes::cells({{0, 0, 0}, {1, 1, 0}, {2, 2, 1}}, {1, 1, 1});
   const auto made = fill(s);
   check_filled(s, made, 3);
   CHECK(made.regions.size() == 3);
 }
 
 TEST_CASE("where orientations mean nothing all that is enclosed is filled, with a warning") {
-  surface inside_out = shapes::cube(4), mixed = shapes::cube(4);
+  triangle_mesh inside_out = shapes::cube(4), mixed = shapes::cube(4);
   shapes::append(mixed, shapes::sphere(1, 0.25, {0.5, 0.5, 0.5}), true);
   for (std::size_t t = 0; t < inside_out.elements.size(); ++t)
     turn_over(inside_out, t);
   for (std::size_t t = 0; t < mixed.elements.size(); t += 3)
     turn_over(mixed, t);
-  for (const surface& s : {inside_out, mixed}) {
+  for (const triangle_mesh& s : {inside_out, mixed}) {
     const auto made = fill(s);
     check_filled(s, made, 1);
     REQUIRE(made.summary.warnings.size() == 1);
@@ -243,7 +243,7 @@ TEST_CASE("where orientations mean nothing all that is enclosed is filled, with 
 }
 
 TEST_CASE("marks name materials and voids") {
-  surface s = shapes::cube(4);
+  triangle_mesh s = shapes::cube(4);
   shapes::append(s, shapes::cube(2, 0.5, {0.25, 0.25, 0.25}));
   fill_options options;
   options.marks = {{{0.5, 0.5, 0.5}, no_id}};
@@ -267,7 +267,7 @@ TEST_CASE("marks name materials and voids") {
 }
 
 TEST_CASE("points that no triangle uses stay where they are") {
-  surface s = shapes::cube(3);
+  triangle_mesh s = shapes::cube(3);
   s.points.insert(s.points.begin() + 5, {9, 9, 9});
   for (auto& t : s.elements)
     for (local_id& v : t)
@@ -276,12 +276,12 @@ TEST_CASE("points that no triangle uses stay where they are") {
 }
 
 TEST_CASE("a coarse surface with small sizes, a fine one with large sizes") {
-  const surface coarse = shapes::cube(2);
+  const triangle_mesh coarse = shapes::cube(2);
   const auto fine_inside = fill(coarse, [](vec3) { return 0.125; });
   check_filled(coarse, fine_inside, 1);
   CHECK(fine_inside.mesh.elements.size() > 1500);
 
-  const surface fine = shapes::sphere(3);
+  const triangle_mesh fine = shapes::sphere(3);
   const auto coarse_inside = fill(fine, [](vec3) { return 1.0; });
   check_filled(fine, coarse_inside, inside(fine));
   CHECK(coarse_inside.quality.min_dihedral_deg > 20);
@@ -293,7 +293,7 @@ TEST_CASE("a coarse surface with small sizes, a fine one with large sizes") {
 }
 
 TEST_CASE("the policies are the caller's") {
-  const surface cube = shapes::cube(3);
+  const triangle_mesh cube = shapes::cube(3);
   const auto plain = fill(cube, {}, mesher::native{.size_scale = 0.5}, no_improver{});
   check_filled(cube, plain, 1);
   CHECK(plain.mesh.elements.size() > fill(cube).mesh.elements.size());
@@ -303,8 +303,8 @@ TEST_CASE("the policies are the caller's") {
 }
 
 TEST_CASE("each fault of a surface is named with its place") {
-  const surface cube = shapes::cube(3);
-  surface s = cube;
+  const triangle_mesh cube = shapes::cube(3);
+  triangle_mesh s = cube;
   s.elements.clear();
   check_refused<geometry_error>(s, "without triangles");
   s = cube;
@@ -341,7 +341,7 @@ TEST_CASE("each fault of a surface is named with its place") {
 }
 
 TEST_CASE("sizes that cannot be used are named") {
-  const surface cube = shapes::cube(3);
+  const triangle_mesh cube = shapes::cube(3);
   CHECK_THROWS_WITH_AS(fill(cube, [](vec3) { return 0.0; }), doctest::Contains("must be positive"),
                        sizing_error);
   CHECK_THROWS_WITH_AS(fill(cube, [](vec3) { return 1e-5; }), doctest::Contains("give larger sizes"),

@@ -29,6 +29,8 @@
 #include <vector>
 
 using namespace dovetail;
+using testing::no_number;
+using testing::unit_square;
 
 namespace {
 
@@ -237,14 +239,6 @@ void check_improvers() {
     CHECK(testing::has(warning, h.reason));
     CHECK((h.how == wrong::never_ends || testing::contains(warning, "improver 'bad': ")));
   }
-}
-
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-
-plane_domain unit_square() {
-  plane_drawing drawing;
-  drawing.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, "square"}};
-  return plane_domain(drawing);
 }
 
 /// What is said when the square is meshed in four parts with such parameters; empty when nothing is wrong.

@@ -10,7 +10,7 @@ using namespace dovetail;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double half_turn = std::numbers::pi;
 
 const auto straight = [](double t) { return curve_frame{{t, 0, 0}, {1, 0, 0}}; };
 const auto circle = [](double t) {
@@ -50,11 +50,11 @@ TEST_CASE("neighbouring segments follow a graded size") {
 
 TEST_CASE("options: least number of segments and largest turn") {
   const auto large = [](vec3) { return 100.0; };
-  CHECK(remesh::line_spacing{}(circle, 0, 2 * pi, large).size() == 2);
-  CHECK(remesh::line_spacing{.minimum_segments = 3}(circle, 0, 2 * pi, large).size() == 4);
-  CHECK(remesh::line_spacing{.largest_turn = pi / 4}(circle, 0, 2 * pi, large).size() == 9);
-  const remesh::line_spacing floored{.largest_turn = pi / 4, .smallest_turn_size = 10};
-  CHECK(floored(circle, 0, 2 * pi, large).size() == 2);
+  CHECK(remesh::line_spacing{}(circle, 0, 2 * half_turn, large).size() == 2);
+  CHECK(remesh::line_spacing{.minimum_segments = 3}(circle, 0, 2 * half_turn, large).size() == 4);
+  CHECK(remesh::line_spacing{.largest_turn = half_turn / 4}(circle, 0, 2 * half_turn, large).size() == 9);
+  const remesh::line_spacing floored{.largest_turn = half_turn / 4, .smallest_turn_size = 10};
+  CHECK(floored(circle, 0, 2 * half_turn, large).size() == 2);
 }
 
 TEST_CASE("few segments become one, two or four when asked to") {

@@ -22,7 +22,7 @@ using namespace dovetail;
 
 namespace {
 
-const any_geometry no_lines_on_it(plane_domain({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}}));
+const any_geometry square(plane_domain({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}}));
 constexpr double size_of_triangles = 0.005;
 
 /// A strip of interface faces between subdomains 0 and 1: so fine that they are put together in several
@@ -36,12 +36,12 @@ fine_skeleton strip(const any_executor& run, const std::shared_ptr<entity_store>
   const refined_sizing size{any_sizing([](vec3) { return size_of_triangles; })};
   batched_entities<fine_line> made_lines(store);
   region_store made_patches(store);
-  const numbered_lines lines = number_lines(
-      coarse, remesh_lines(no_lines_on_it, coarse.lines, points, size, run, made_lines), points, {});
+  const numbered_lines lines =
+      number_lines(coarse, remesh_lines(square, coarse.lines, points, size, run, made_lines), points, {});
   const surface_mesh no_surface;
   const std::vector<local_id> materials{7, 7};
-  return remesh_skeleton({no_lines_on_it, no_surface, points, coarse, lines, size, materials},
-                         any_surface_mesher(), run, made_patches)
+  return remesh_skeleton({square, no_surface, points, coarse, lines, size, materials}, any_surface_mesher(),
+                         run, made_patches)
       .fine;
 }
 
