@@ -25,7 +25,7 @@ native preset(std::uint64_t i) {
 }
 
 /// Poor but valid meshes of different kinds.
-mesh_type random_mesh(std::uint64_t seed) {
+mesh_type random_start(std::uint64_t seed) {
   const int n = seed % 8 == 0 ? 3 : 2;
   const double squeeze = seed % 5 == 0 ? 0.05 : seed % 5 == 1 ? 0.3 : 1;
   auto mesh = squeezed_cubes(n, seed, squeeze);
@@ -38,7 +38,7 @@ TEST_CASE(
     "squeezed and sheared cubes stay valid and do not get worse") { // test_random_meshes has ten thousand
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     CAPTURE(seed);
-    const auto mesh = random_mesh(seed);
+    const auto mesh = random_start(seed);
     const auto result = check_contract(preset(seed), mesh);
     check_boundary_points(mesh, result);
   }
@@ -50,7 +50,7 @@ TEST_CASE("every objective keeps the contract") {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       auto improver = native::fine();
       improver.objective = kind;
-      auto mesh = random_mesh(seed);
+      auto mesh = random_start(seed);
       improver(mesh, {}, {});
       const auto validity = dovetail::check_validity(mesh);
       CHECK_MESSAGE(validity.valid(), validity.text());
@@ -60,7 +60,7 @@ TEST_CASE("every objective keeps the contract") {
 TEST_CASE("materials keep their volume and their common sides") {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
-    auto mesh = random_mesh(seed);
+    auto mesh = random_start(seed);
     dovetail_test::random_numbers random(seed);
     mesh.tags.resize(mesh.elements.size());
     const vec3 normal{random.signed_unit(), random.signed_unit(), random.signed_unit()};
@@ -75,7 +75,7 @@ TEST_CASE("materials keep their volume and their common sides") {
 TEST_CASE("frozen inner sides and points are kept") {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
-    const auto mesh = random_mesh(seed);
+    const auto mesh = random_start(seed);
     dovetail_test::random_numbers random(seed + 1000);
     frozen_type frozen;
     frozen.points = static_cast<local_id>(random.bits() % mesh.points.size());
@@ -121,7 +121,7 @@ TEST_CASE("a far-away or tiny mesh is improved like one at the origin") {
 TEST_CASE("edges stay in the band around the size") {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     CAPTURE(seed);
-    const auto mesh = random_mesh(seed);
+    const auto mesh = random_start(seed);
     double shortest = 1e300, longest = 0;
     const auto measure = [](const mesh_type& m, double& low, double& high) {
       for (const auto& element : m.elements)
