@@ -24,6 +24,7 @@
 #include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/files/write_trace.hpp"
 #include "dovetail/parallel/available_processors.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
 #include "dovetail/parallel/traced.hpp"
 #include "dovetail/pipeline/intersection_counts.hpp"
@@ -195,12 +196,14 @@ public:
                     options_.out.c_str(), options_.report.empty() ? "" : ", and no report is written");
       return exit_ok;
     }
-    parameters_.store = has_own_spool() ? store->get().of_one_rank() : store->get();
+    const spool disk = has_own_spool() ? store->get().of_one_rank() : store->get();
+    policies_.executor =
+        any_executor(parallel::checkpointed(policies_.executor, disk), policies_.executor.name());
     if (leads_)
       parameters_.failure_folder = folder / "failed";
     try {
       if (has_own_spool())
-        exchange_all_blobs(*parameters_.store, *options_.network); // those of an earlier run
+        exchange_all_blobs(disk, *options_.network); // those of an earlier run
       make(source, folder, finished);
     } catch (const cancelled&) {
       store->interrupt();
@@ -402,9 +405,8 @@ private:
   }
 
   void add_middles(distributed_simplicial_mesh<D>& mesh, const model_source& source) {
-    const report found =
-        io::add_mid_nodes(mesh, source.geometry, policies_.executor,
-                          {.store = parameters_.store, .on_progress = parameters_.on_progress});
+    const report found = io::add_mid_nodes(mesh, source.geometry, policies_.executor,
+                                           {.on_progress = parameters_.on_progress});
     collect_warnings(found, figures_.warnings);
     figures_.details.children.push_back(found);
   }
@@ -419,7 +421,6 @@ private:
             make_rank_partitioner(options_.rank_partitioner, policies_.partitioner, options_.partition_desk),
         .simplify_by = policies_.simplifier,
         .run_tasks = policies_.executor,
-        .store = parameters_.store,
         .on_progress = parameters_.on_progress}(mesh, *options_.ranks);
     mesh = *given.mesh;
     figures_.seconds.redistribution = clock.seconds();
@@ -428,7 +429,7 @@ private:
     if constexpr (D == 3)
       if (const auto strategy = make_improving_strategy(improvement_of_ranks(options_, D))) {
         auto improved = strategy(mesh, policies_.improver, size, policies_.executor,
-                                 {.store = parameters_.store, .on_progress = parameters_.on_progress});
+                                 {.on_progress = parameters_.on_progress});
         add_passes(improved.summary, figures_);
         mesh = std::move(improved.mesh);
         ranks.clear();

@@ -23,7 +23,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <memory>
 #include <mutex>
 #include <string>
 
@@ -116,8 +115,8 @@ int main(int argc, char** argv) try {
           bind_parameters<3>(policies.with_mesher(mesher).with_improver(improver).with_executor(
               parallel::threads{.worker_count = threads}));
       const stopwatch clock;
-      const auto meshed = mesh_wanted_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
-                                                std::make_shared<entity_store>(), with_threads);
+      const auto meshed =
+          mesh_wanted_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined, with_threads);
       const double wall = clock.seconds();
       std::printf("| %d | %zu | %.0f | %.0f | %.0f | %.2f | %.2f | %.0f | %.0f | %.2f |\n", threads,
                   meshed.pieces.size(), found.elements, found.largest, found.recovered, found.meshing,

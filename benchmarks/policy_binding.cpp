@@ -16,7 +16,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,8 +89,8 @@ int main(int argc, char** argv) {
     return simplified.super_of_element;
   };
   const auto mesh_pieces = [&](const auto& given) {
-    const auto meshed = mesh_wanted_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined,
-                                              std::make_shared<entity_store>(), given);
+    const auto meshed =
+        mesh_wanted_pieces<3>(model, background.mesh, *skeleton, divided.weights, refined, given);
     return meshed.quality.elements;
   };
   const auto generate_all = [&](const auto& given) {

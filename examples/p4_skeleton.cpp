@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <memory>
 #include <vector>
 
 namespace {
@@ -54,7 +53,7 @@ void show(int argc, char** argv) {
       make_background<D>(model, uniform_size(paper::size<D>(argc, argv, model)), policies);
   const auto divided = divide<D>(background.mesh, background.size, 8, policies);
   // part realize
-  skeleton_store made_so_far(std::make_shared<entity_store>());
+  skeleton_memo made_so_far;
   const realized<D> made =
       realize<D>(model, background.mesh, divided, divided.pieces.part_of_element,
                  static_cast<std::size_t>(divided.pieces.parts), background.size, made_so_far, policies);

@@ -11,7 +11,6 @@
 #include "paper_model.hpp"
 
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,7 +25,7 @@ void suppress(const any_geometry& model, const background_result<3>& background,
               const divided_background<3>& divided, const any_parameters<3>& given) {
   std::vector<local_id> subdomain_of_element = divided.pieces.part_of_element;
   std::vector<local_id> members(static_cast<std::size_t>(divided.pieces.parts), 1); // parts per subdomain
-  skeleton_store made(std::make_shared<entity_store>());
+  skeleton_memo made;
   for (;;) {
     const auto skeleton = realize<3>(model, background.mesh, divided, subdomain_of_element, members.size(),
                                      background.size, made, given);

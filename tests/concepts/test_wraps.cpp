@@ -14,6 +14,7 @@
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
+#include "dovetail/parallel/remembering.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/parallel/wraps.hpp"
@@ -189,6 +190,8 @@ template <class E>
 struct slowed : parallel::wraps<slowed<E>, E> {};
 
 static_assert(executor<slowed<parallel::serial>> && executor<slowed<parallel::clock_watch>>);
+static_assert(uses_threads<parallel::remembering<parallel::threads>>() &&
+              executor<parallel::forgetting<any_executor>>);
 static_assert(uses_threads<slowed<slowed<parallel::threads>>>() && !uses_threads<slowed<parallel::serial>>());
 
 /// Another process goes through the same program, and does what is done once.
@@ -204,6 +207,14 @@ struct second_of_two {
   any_communicator network() const { return parallel::self{}; }
   byte_buffer once(const std::function<byte_buffer()>& work) const { return ++*times, work(); }
 };
+
+TEST_CASE("what wraps an executor that remembers finds what that has kept") {
+  const parallel::remembering keeps(parallel::serial{});
+  CHECK(slowed<parallel::remembering<parallel::serial>>{keeps}.results() == keeps.results());
+  CHECK(any_executor(parallel::clock_watch(keeps, 1)).results() == keeps.results());
+  CHECK(keeps.results() != nullptr);
+  CHECK(parallel::remembering(keeps).results() == keeps.results()); // a copy
+}
 
 TEST_CASE("a wrapped executor has the ranks and the once of the executor") {
   int times = 0;

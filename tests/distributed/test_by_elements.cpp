@@ -11,6 +11,7 @@
 #include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/partition/recursive_coordinate.hpp"
@@ -28,7 +29,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -190,27 +190,27 @@ TEST_CASE("the result is the same for every executor, any number of ranks, and w
   const auto alone = by_elements(mesh, 3);
   CHECK(alone.summary.get("depends_on_ranks", 1) == 0);
   CHECK(alone.summary.warnings.empty());
-  const auto same = [&](const any_executor& run, const std::optional<spool>& store) {
+  const auto same = [&](const any_executor& run) {
     auto how = by_elements;
     how.run_tasks = run;
-    how.store = store;
     const auto given = how(mesh, 3);
     return given.rank_of_piece == alone.rank_of_piece &&
            io::mesh_hash(*given.mesh) == io::mesh_hash(*alone.mesh);
   };
   const scratch_folder folder("by_elements");
   const auto disk = spool::start(folder / "spool", {{"test", "1"}});
-  CHECK(same(parallel::serial{}, disk));
-  CHECK(same(parallel::processes{.worker_count = 2}, {}));
-  CHECK(same(parallel::processes{.worker_count = 2}, disk)); // finds the new pieces there
-  CHECK(same(parallel::threads{.worker_count = 3}, {}));
+  CHECK(same(parallel::checkpointed(parallel::serial{}, disk)));
+  CHECK(same(parallel::processes{.worker_count = 2}));
+  CHECK(same(parallel::checkpointed(parallel::processes{.worker_count = 2}, disk)));
+  CHECK(same(parallel::threads{.worker_count = 3}));
   for (const int ranks : {1, 2, 4}) {
     const auto shared = spool::start(folder / std::to_string(ranks), {{"test", "1"}});
     parallel::run_ranks(ranks, [&](parallel::in_process& mine) {
-      CHECK(same(parallel::ranks(mine), {}));
-      CHECK(same(parallel::ranks(mine), shared));
+      CHECK(same(parallel::ranks(mine)));
+      CHECK(same(parallel::checkpointed(parallel::ranks(mine), shared)));
       const auto own = folder / (std::to_string(ranks) + "_" + std::to_string(mine.rank()));
-      CHECK(same(parallel::ranks(mine), spool::start(own, {{"test", "1"}}).of_one_rank()));
+      CHECK(same(
+          parallel::checkpointed(parallel::ranks(mine), spool::start(own, {{"test", "1"}}).of_one_rank())));
     });
   }
 }
@@ -219,7 +219,7 @@ TEST_CASE("new pieces that a spool has are not written again") {
   const auto mesh = stacked_cubes{.cells = 4, .cuts = 2}.distributed();
   const scratch_folder folder("found");
   auto how = by_elements;
-  how.store = spool::start(folder / "spool", {{"test", "1"}});
+  how.run_tasks = parallel::checkpointed(how.run_tasks, spool::start(folder / "spool", {{"test", "1"}}));
   const auto first = how(mesh, 3);
   const auto long_ago = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
   std::size_t pieces = 0;

@@ -7,6 +7,7 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
@@ -18,7 +19,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <utility>
 
 using namespace dovetail;
@@ -28,9 +28,8 @@ namespace {
 
 const redistribution_by::elements by_elements{.super_elements = 40};
 
-improved_pieces improve(const distributed_mesh& mesh, const any_executor& run = parallel::serial{},
-                        const std::optional<spool>& store = {}) {
-  return improve_pieces(mesh, improvement::native{}, {}, run, {.store = store});
+improved_pieces improve(const distributed_mesh& mesh, const any_executor& run = parallel::serial{}) {
+  return improve_pieces(mesh, improvement::native{}, {}, run);
 }
 
 } // namespace
@@ -65,7 +64,9 @@ TEST_CASE("pieces are improved alike by every executor, any number of ranks, and
   const scratch_folder folder("improve_pieces");
   const auto disk = spool::start(folder / "spool", {{"test", "1"}});
   CHECK(io::mesh_hash(improve(mesh, parallel::processes{.worker_count = 2}).mesh) == hash);
-  CHECK(io::mesh_hash(improve(mesh, parallel::processes{.worker_count = 2}, disk).mesh) == hash);
+  CHECK(io::mesh_hash(
+            improve(mesh, parallel::checkpointed(parallel::processes{.worker_count = 2}, disk)).mesh) ==
+        hash);
   parallel::run_ranks(3, [&](parallel::in_process& mine) {
     CHECK(io::mesh_hash(improve(mesh, parallel::ranks(mine)).mesh) == hash);
   });

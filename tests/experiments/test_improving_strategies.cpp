@@ -8,6 +8,7 @@
 #include "dovetail/improver/native.hpp"
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "files/scratch_folder.hpp"
@@ -122,15 +123,15 @@ TEST_CASE("every strategy gives the same by every executor, any number of ranks,
     const auto& name = named.first; // named, since clang 14 captures no structured binding
     const auto& strategy = named.second;
     CAPTURE(name);
-    const auto hash_by = [&](const any_executor& run, const improving_options& options = {}) {
-      return io::mesh_hash(strategy(mesh, improvement::native{}, {}, run, options).mesh);
+    const auto hash_by = [&](const any_executor& run) {
+      return io::mesh_hash(strategy(mesh, improvement::native{}, {}, run, {}).mesh);
     };
     const auto hash = hash_by(parallel::serial{});
     CHECK(hash != io::mesh_hash(mesh));
     const scratch_folder folder("improving_strategies");
     const auto disk = spool::start(folder / "spool", {{"test", "1"}});
     CHECK(hash_by(parallel::processes{.worker_count = 2}) == hash);
-    CHECK(hash_by(parallel::processes{.worker_count = 2}, {.store = disk}) == hash);
+    CHECK(hash_by(parallel::checkpointed(parallel::processes{.worker_count = 2}, disk)) == hash);
     parallel::run_ranks(3,
                         [&](parallel::in_process& mine) { CHECK(hash_by(parallel::ranks(mine)) == hash); });
   }

@@ -13,6 +13,7 @@
 #include "dovetail/models/implicit_model.hpp"
 #include "dovetail/models/plane/svg_path.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -278,16 +279,16 @@ TEST_CASE("middles that would invert an element go back by halves, for both elem
 TEST_CASE("a run that is resumed takes the nodes that it has kept") {
   const testing::scratch_folder folder("second_order_store");
   const two_at_an_arc arc(0.15);
-  io::second_order_options options{.store = spool::start(folder / "spool", {{"test", "1"}})};
+  const any_executor keeps =
+      parallel::checkpointed(parallel::serial{}, spool::start(folder / "spool", {{"test", "1"}}));
   auto first = arc.distributed();
-  io::add_mid_nodes(first, arc.domain, parallel::serial{}, options);
+  io::add_mid_nodes(first, arc.domain, keeps);
   auto second = arc.distributed();
   second.load = [](local_id) -> simplicial_piece<2> { throw mesh_error("given up"); };
-  CHECK(io::add_mid_nodes(second, arc.domain, parallel::serial{}, options).get("moved_back") == 1);
+  CHECK(io::add_mid_nodes(second, arc.domain, keeps).get("moved_back") == 1);
   CHECK(second.mid_nodes->points == first.mid_nodes->points);
   CHECK(second.mid_nodes->inner == first.mid_nodes->inner);
-  options.store.reset();
-  CHECK_THROWS_AS(io::add_mid_nodes(second, arc.domain, parallel::serial{}, options), mesh_error);
+  CHECK_THROWS_AS(io::add_mid_nodes(second, arc.domain, parallel::serial{}), mesh_error);
 }
 
 TEST_CASE_TEMPLATE("Gmsh reads the elements, with positive Jacobians and the ball's volume or area", T,

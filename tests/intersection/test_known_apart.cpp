@@ -52,16 +52,20 @@ TEST_CASE("What is found near the rest is named by its own number") {
   CHECK(plan.merges == std::vector<std::array<local_id, 2>>{{2, 3}});
 }
 
-TEST_CASE("Of patches with new keys nothing is known, and their boxes are searched") {
+TEST_CASE("Of new patches nothing is known, and their boxes are searched") {
   const fine_skeleton skeleton = three_triangles();
   const std::vector<local_id> first{0, 1, 2, 3}; // each a patch
-  const std::vector<content_key> keys{{7}, {3}, {5}};
-  const auto known_of = [&](const std::vector<content_key>& apart) {
-    return known_from_patches(skeleton, first, keys, apart);
+  const auto patch = [](std::uint64_t name) { return kept<patch_mesh>(content_key{name}); };
+  const std::vector<kept<patch_mesh>> patches{patch(7), patch(3), patch(5)};
+  const auto known_of = [&](const std::vector<std::uint64_t>& names) {
+    std::vector<kept<patch_mesh>> apart;
+    for (const std::uint64_t name : names)
+      apart.push_back(patch(name));
+    return known_from_patches(skeleton, first, patches, apart);
   };
   CHECK(known_of({}).triangles.empty());
-  CHECK(known_of({{3}, {5}, {7}}).triangles == std::vector<bool>{true, true, true});
-  const known_apart known = known_of({{3}, {7}, {9}});
+  CHECK(known_of({3, 5, 7}).triangles == std::vector<bool>{true, true, true});
+  const known_apart known = known_of({3, 7, 9});
   CHECK(known.triangles == std::vector<bool>{true, true, false});
   REQUIRE(known.around_others.size() == 1);
   CHECK(known.around_others[0].lower == box_around(skeleton, 2).lower);

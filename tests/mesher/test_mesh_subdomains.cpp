@@ -4,8 +4,10 @@
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/in_process.hpp"
+#include "dovetail/parallel/remembering.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "files/scratch_folder.hpp"
@@ -15,6 +17,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -105,10 +108,6 @@ struct scratch_folder {
   fs::path path = around / "folder";
 };
 
-std::shared_ptr<entity_store> in_spool(spool disk) {
-  return std::make_shared<entity_store>(std::move(disk));
-}
-
 byte_buffer all_bytes(const meshing_result& result) {
   byte_writer bytes;
   for (local_id s = 0; s < static_cast<local_id>(result.pieces.size()); ++s)
@@ -124,10 +123,9 @@ meshing_result run_fan(const fan_mesher& mesher, const meshing_options& options 
 } // namespace
 
 TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points") {
-  meshing_options options;
-  options.store = std::make_shared<entity_store>();
-  const auto result = mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size,
-                                      parallel::serial{}, options);
+  const any_executor keeping = parallel::remembering(parallel::serial{});
+  const auto result =
+      mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size, keeping);
   CHECK(result.failures.empty());
   global_id elements = 0;
   for (local_id s = 0; s < static_cast<local_id>(piece_count); ++s) {
@@ -142,8 +140,9 @@ TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points"
     CHECK(summary.counts.inner_points == 1);
     CHECK(summary.quality.all.elements == summary.counts.elements);
     CHECK(summary.summary.children.at(1).name == "improver");
-    const auto kept = options.store->value<finished_piece<3>>(result.keys[s]).summary.summary;
-    CHECK(kept.children.at(1).get("frozen points") == static_cast<double>(input.skeleton_points.size()));
+    const auto found = keeping.results()->of("piece")->value<finished_piece<3>>(result.finished[s].key());
+    CHECK(found.summary.summary.children.at(1).get("frozen points") ==
+          static_cast<double>(input.skeleton_points.size()));
     elements += summary.counts.elements;
   }
   CHECK(result.quality.elements == elements);
@@ -151,18 +150,18 @@ TEST_CASE("Every subdomain is meshed, and the pieces know their skeleton points"
   CHECK(result.summary.get("failed") == 0);
 }
 
-TEST_CASE("The result does not depend on the executor, its workers or the store") {
+TEST_CASE("The result does not depend on the executor, its workers or where pieces are kept") {
   const scratch_folder scratch;
-  const auto run = [&](const auto& executor, const meshing_options& options) {
-    return all_bytes(mesh_subdomains(piece_count, cube_number, fan_mesher{1}, counting_improver{}, unit_size,
-                                     executor, options));
+  const auto run = [&](const any_executor& executor) {
+    return all_bytes(
+        mesh_subdomains(piece_count, cube_number, fan_mesher{1}, counting_improver{}, unit_size, executor));
   };
-  const auto expected = run(parallel::serial{}, {});
+  const auto expected = run(parallel::serial{});
   for (const int workers : {1, 2, 4}) {
-    CHECK(run(parallel::processes{workers}, {}) == expected);
-    meshing_options spooled;
-    spooled.store = in_spool(spool::start(scratch.path, {}));
-    CHECK(run(parallel::processes{workers}, spooled) == expected);
+    const parallel::processes executor{workers};
+    CHECK(run(executor) == expected);
+    CHECK(run(parallel::remembering(executor)) == expected);
+    CHECK(run(parallel::checkpointed(executor, spool::start(scratch.path, {}))) == expected);
   }
 }
 
@@ -182,15 +181,14 @@ struct weighing_executor {
 
 TEST_CASE("With a spool a piece is a few bytes of its worker's, however large its boundary") {
   const scratch_folder scratch;
-  meshing_options options;
-  options.store = in_spool(spool::start(scratch.path, {}));
   subdomain_input input;
   input.boundary.boundary = shapes::cube(40);
   input.skeleton_points.resize(input.boundary.boundary.points.size());
   const auto bytes_for = [&](const subdomain_input& piece) {
     const weighing_executor weigh;
     const auto result = mesh_subdomains(
-        1, [&](local_id) { return piece; }, fan_mesher{}, counting_improver{}, unit_size, weigh, options);
+        1, [&](local_id) { return piece; }, fan_mesher{}, counting_improver{}, unit_size,
+        parallel::checkpointed(weigh, spool::start(scratch.path, {})));
     CHECK(result.pieces[0].counts.elements > 10000);
     CHECK(result.pieces[0].quality.at_interfaces.has_value() == !piece.on_interface.empty());
     return *weigh.bytes;
@@ -258,6 +256,28 @@ TEST_CASE("What no attempt can mesh comes back as data, with a file of its facet
   CHECK(keyword == "OFF");
   CHECK(triangles == cube_number(2).boundary.boundary.elements.size()); // none crosses: all of them
   CHECK_NOTHROW(result.load(3));
+}
+
+TEST_CASE("What the rank that leads has recorded of a failure all ranks know") {
+  const scratch_folder scratch;
+  std::atomic<int> recorded = 0;
+  parallel::run_ranks(3, [&](parallel::in_process& mine) {
+    meshing_options options;
+    if (mine.rank() == 0)
+      options.on_failure = [&](piece_failure& known, const simplicial_mesh<2>&) {
+        known.crossing_facets = 7;
+        known.facets = "somewhere";
+        ++recorded;
+      };
+    const auto result = run_fan({3, fan_mesher::misbehaviour::throws}, options, parallel::ranks(mine));
+    CHECK(result.failures.size() == 1);
+    const piece_failure& failure = result.failures.at(0);
+    CHECK(failure.subdomain == 2);
+    CHECK(failure.reasons.size() == 4);
+    CHECK(failure.crossing_facets == 7);
+    CHECK(failure.facets == "somewhere");
+  });
+  CHECK(recorded == 1);
 }
 
 TEST_CASE("The facets that cross are singled out") {
@@ -344,12 +364,11 @@ TEST_CASE("A mesher that cannot fork here is a usage_error, and no other one tak
                        doctest::Contains("mesher 'forks': worker processes cannot be forked"), usage_error);
 }
 
-TEST_CASE("A store that cannot be written is an io_error") {
+TEST_CASE("A spool that cannot be written is an io_error") {
   const scratch_folder scratch;
-  meshing_options options;
-  options.store = in_spool(spool::start(scratch.path, {}));
+  const any_executor keeping = parallel::checkpointed(parallel::processes{2}, spool::start(scratch.path, {}));
   fs::remove_all(scratch.path);
-  CHECK_THROWS_AS(run_fan({}, options), io_error);
+  CHECK_THROWS_AS(run_fan({}, {}, keeping), io_error);
 }
 
 TEST_CASE("A killed run is resumed, makes only what is missing, and gives the same mesh") {
@@ -358,8 +377,8 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
   std::fflush(nullptr);
   const pid_t child = ::fork();
   if (child == 0) { // is killed while cube 4 is being made
-    meshing_options options;
-    options.store = in_spool(spool::start(scratch.path, {}));
+    const any_executor keeping =
+        parallel::checkpointed(parallel::processes{1}, spool::start(scratch.path, {}));
     mesh_subdomains(
         piece_count,
         [](local_id s) {
@@ -370,7 +389,7 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
           }
           return cube_number(s);
         },
-        fan_mesher{}, counting_improver{}, unit_size, parallel::processes{1}, options);
+        fan_mesher{}, counting_improver{}, unit_size, keeping);
     ::_exit(0);
   }
   int status = 0;
@@ -378,14 +397,14 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
   REQUIRE(WIFSIGNALED(status));
 
   const spool disk = spool::resume(scratch.path, {});
-  const auto name_of = [](local_id cube) { return "piece_" + to_string(key_of(cube_number(cube), {})); };
+  const auto name_of = [](local_id cube) {
+    return "piece_" + to_string(kept_piece(cube_number(cube), {}).key());
+  };
   REQUIRE(disk.read(name_of(3)));
   REQUIRE_FALSE(disk.read(name_of(5)));
   fs::resize_file(disk.path_of(name_of(1)), 100); // and one is damaged
-  meshing_options options;
-  options.store = in_spool(disk);
   const auto result = mesh_subdomains(piece_count, cube_number, fan_mesher{}, counting_improver{}, unit_size,
-                                      parallel::serial{}, options);
+                                      parallel::checkpointed(parallel::serial{}, disk));
   CHECK(result.summary.get("reused") == 3); // 0, 2 and 3
   CHECK(all_bytes(result) == expected);
   CHECK(result.summary.get("elements") > 0);
@@ -393,7 +412,7 @@ TEST_CASE("A killed run is resumed, makes only what is missing, and gives the sa
   CHECK_THROWS_AS(result.load(0), io_error);
 }
 
-TEST_CASE("What a store has is not made again, under whatever number") {
+TEST_CASE("What an executor remembers is not made again, under whatever number") {
   const auto shifted = [](local_id s) { return cube_number((s + 2) % static_cast<local_id>(piece_count)); };
   const auto changed = [](local_id s) {
     auto input = cube_number(s);
@@ -401,11 +420,9 @@ TEST_CASE("What a store has is not made again, under whatever number") {
       input.boundary.boundary.points.front().x -= 1e-9;
     return input;
   };
-  meshing_options options;
-  options.store = std::make_shared<entity_store>();
+  const parallel::remembering keeping(parallel::processes{2});
   const auto run = [&](const auto& source, const refined_sizing& size = unit_size) {
-    return mesh_subdomains(piece_count, source, fan_mesher{}, counting_improver{}, size,
-                           parallel::processes{2}, options);
+    return mesh_subdomains(piece_count, source, fan_mesher{}, counting_improver{}, size, keeping);
   };
   CHECK(run(cube_number).summary.get("reused") == 0);
   const auto result = run(shifted);

@@ -1,6 +1,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/common_arrays.hpp"
 #include "dovetail/parallel/common_memory.hpp"
 #include "dovetail/parallel/in_process.hpp"
@@ -29,8 +30,8 @@ constexpr std::size_t tasks = 9, numbers_per_task = 1000;
 spool new_spool(const fs::path& folder) {
   return spool::start(folder, {{"input", "abc"}});
 }
-std::string place_of_file(const entity_store& store) {
-  return store.place_of_file("numbers")->string();
+fs::path place_of_file(const spool& disk) {
+  return *entity_store(place_in(disk), "common").place_of_file("numbers");
 }
 
 /// Task i writes a thousand numbers from 1000 i + `first` on.
@@ -40,8 +41,8 @@ void write_numbers(const common_memory& memory, std::size_t task, int first) {
   memory.write(task * numbers_per_task * sizeof(int), numbers);
 }
 
-shared_array<int> filled(const any_executor& run, const entity_store& store, int first = 0) {
-  common_memory memory(run, store, "numbers", tasks * numbers_per_task * sizeof(int));
+shared_array<int> filled(const any_executor& run, int first = 0) {
+  common_memory memory(run, "numbers", tasks * numbers_per_task * sizeof(int));
   memory.fill(tasks, [&](std::size_t i) { write_numbers(memory, i, first); }, {});
   memory.close();
   return memory.array<int>(0, tasks * numbers_per_task);
@@ -60,7 +61,7 @@ void check_numbers(const shared_array<int>& numbers, int first = 0) {
 TEST_CASE("What tasks write is read by whoever ran them") {
   for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::threads{3}),
                                   any_executor(parallel::processes{3})}) {
-    const shared_array<int> numbers = filled(run, entity_store{});
+    const shared_array<int> numbers = filled(run);
     check_numbers(numbers);
     shared_array<int> copy = numbers;
     CHECK(copy.data() == numbers.data());
@@ -74,11 +75,11 @@ TEST_CASE("What tasks write is read by whoever ran them") {
 
 TEST_CASE("Ranks with one spool have it in a file there, of which the next one takes the place") {
   const testing::scratch_folder scratch("common_memory");
-  const entity_store store(new_spool(scratch / "spool"), "skeleton");
+  const spool disk = new_spool(scratch / "spool");
   std::array<std::atomic<int>, tasks> times{};
   parallel::run_ranks(3, [&](parallel::in_process& mine) {
-    const any_executor run = parallel::ranks(mine);
-    common_memory memory(run, store, "numbers", tasks * numbers_per_task * sizeof(int));
+    const any_executor run = parallel::checkpointed(parallel::ranks(mine), disk);
+    common_memory memory(run, "numbers", tasks * numbers_per_task * sizeof(int));
     memory.fill(tasks,
                 [&](std::size_t i) {
                   ++times[i];
@@ -88,31 +89,31 @@ TEST_CASE("Ranks with one spool have it in a file there, of which the next one t
     memory.close();
     const auto first = memory.array<int>(0, tasks * numbers_per_task);
     check_numbers(first);
-    const auto second = filled(run, store, 5);
+    const auto second = filled(run, 5);
     check_numbers(second, 5);
     check_numbers(first); // on one machine the old pages last as long as somebody holds them
   });
   for (const auto& count : times)
     CHECK(count == 1);
-  CHECK(fs::file_size(place_of_file(store)) == tasks * numbers_per_task * sizeof(int));
+  CHECK(fs::file_size(place_of_file(disk)) == tasks * numbers_per_task * sizeof(int));
   new_spool(scratch / "spool"); // as any that starts there
-  CHECK_FALSE(fs::exists(place_of_file(store)));
+  CHECK_FALSE(fs::exists(place_of_file(disk)));
 }
 
 TEST_CASE("Ranks that do not see each other's spools have one each") {
   const testing::scratch_folder scratch("common_memory");
   parallel::run_ranks(2, [&](parallel::in_process& mine) {
     const auto folder = scratch / std::to_string(mine.rank());
-    const entity_store store(new_spool(folder).of_one_rank(), "skeleton");
-    check_numbers(filled(parallel::ranks(mine), store));
-    CHECK_FALSE(fs::exists(place_of_file(store)));
+    const spool disk = new_spool(folder).of_one_rank();
+    check_numbers(filled(parallel::checkpointed(parallel::ranks(mine), disk)));
+    CHECK_FALSE(fs::exists(place_of_file(disk)));
   });
 }
 
 TEST_CASE("Arrays of several types are filled by ranges") {
   constexpr std::size_t parts = 5, characters = 3; // of a part: an array ends where no double may begin
   for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::processes{2})}) {
-    common_arrays<char, double> arrays(run, entity_store{}, "arrays", {parts * characters, parts});
+    common_arrays<char, double> arrays(run, "arrays", {parts * characters, parts});
     arrays.fill(parts,
                 [&](std::size_t i) {
                   arrays.write<0>(i * characters, std::vector<char>(characters, static_cast<char>('a' + i)));
@@ -127,8 +128,7 @@ TEST_CASE("Arrays of several types are filled by ranges") {
 }
 
 TEST_CASE("A task that fails is told by its stage") {
-  common_memory memory(parallel::processes{2}, entity_store{}, "numbers",
-                       tasks * numbers_per_task * sizeof(int));
+  common_memory memory(parallel::processes{2}, "numbers", tasks * numbers_per_task * sizeof(int));
   const auto crash = [&](std::size_t i) {
     if (i == 4)
       std::raise(SIGABRT);
@@ -140,12 +140,12 @@ TEST_CASE("A task that fails is told by its stage") {
 
 TEST_CASE("A file that cannot be made or written is an error on all ranks") {
   const testing::scratch_folder scratch("common_memory");
-  const entity_store store(new_spool(scratch / "spool"), "skeleton");
+  const spool disk = new_spool(scratch / "spool");
   parallel::run_ranks(2, [&](parallel::in_process& mine) {
-    const any_executor run = parallel::ranks(mine);
-    common_memory memory(run, store, "numbers", tasks * numbers_per_task * sizeof(int));
+    const any_executor run = parallel::checkpointed(parallel::ranks(mine), disk);
+    common_memory memory(run, "numbers", tasks * numbers_per_task * sizeof(int));
     if (run.leads())
-      fs::remove(place_of_file(store));
+      fs::remove(place_of_file(disk));
     run.network().agree();
     CHECK_THROWS_WITH_AS(memory.fill(tasks, [&](std::size_t i) { write_numbers(memory, i, 0); }, {}),
                          doctest::Contains("cannot open"), io_error);
@@ -153,7 +153,7 @@ TEST_CASE("A file that cannot be made or written is an error on all ranks") {
   });
   fs::remove_all(scratch / "spool");
   parallel::run_ranks(2, [&](parallel::in_process& mine) {
-    CHECK_THROWS_WITH_AS(filled(parallel::ranks(mine), store), doctest::Contains("skeleton_numbers"),
-                         io_error);
+    CHECK_THROWS_WITH_AS(filled(parallel::checkpointed(parallel::ranks(mine), disk)),
+                         doctest::Contains("common_numbers"), io_error);
   });
 }

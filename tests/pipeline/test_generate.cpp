@@ -5,6 +5,7 @@
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
 #include "dovetail/models/occt_model.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/sources.hpp"
@@ -263,13 +264,11 @@ TEST_CASE("a subdomain that no attempt can mesh is merged with its neighbour") {
 TEST_CASE("a run in the spool of an earlier one makes nothing again") {
   const testing::scratch_folder folder("generate");
   const auto run = [&](const spool& disk) {
-    auto options = in_parts(6);
-    options.store = disk;
     return generate<3>(occt_shape_from(drilled_block()).model, uniform_size(0.15),
                        parameters<>{}
                            .with_mesher(mesher::tetgen{})
-                           .with_executor(parallel::processes{2})
-                           .with_options(options));
+                           .with_executor(parallel::checkpointed(parallel::processes{2}, disk))
+                           .with_options(in_parts(6)));
   };
   const auto first = run(spool::start(folder, {}));
   const auto second = run(spool::resume(folder, {}));
@@ -300,10 +299,13 @@ TEST_CASE("sizes that predict more elements than wanted are enlarged: in the pla
   CHECK(plan.predicted_elements <= 5000); // fewer by what improvement and interfaces take
   CHECK(plan.predicted_elements > 4400);
   CHECK(plan.size_scale > 5);
-  options.store = spool::start(folder, {});
-  const auto made = make_background<3>(model, uniform_size(0.02), policies.with_options(options));
-  options.store = spool::resume(folder, {});
-  const auto kept = make_background<3>(model, uniform_size(0.02), policies.with_options(options));
+  const auto background_in = [&](const spool& disk) {
+    return make_background<3>(
+        model, uniform_size(0.02),
+        policies.with_executor(parallel::checkpointed(parallel::serial{}, disk)).with_options(options));
+  };
+  const auto made = background_in(spool::start(folder, {}));
+  const auto kept = background_in(spool::resume(folder, {}));
   CHECK(kept.summary.get("kept") == 1);
   for (const auto& background : {made, kept}) {
     CHECK(background.size({1, 1, 0.5}) == doctest::Approx(0.02 * plan.size_scale));
@@ -314,7 +316,6 @@ TEST_CASE("sizes that predict more elements than wanted are enlarged: in the pla
   require_valid(result);
   CHECK(static_cast<double>(result.quality.elements) == doctest::Approx(5000).epsilon(0.3));
 
-  options.store.reset();
   options.enlarged_above = 1e7;
   CHECK(plan_background<3>(model, uniform_size(0.02), policies.with_options(options)).size_scale == 1);
 }

@@ -4,6 +4,7 @@
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/models/plane/read.hpp"
 #include "dovetail/models/plane/svg_path.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "files/scratch_folder.hpp"
 
@@ -161,8 +162,9 @@ TEST_CASE("what a limit of time has decided is counted, and is remembered with t
   const scratch_folder folder("clock");
   const auto given = parameters<>{}.with_options(in_parts(5));
   CHECK(stops_by_clock(generate<2>(domain, uniform_size(0.05), given).summary) == 0);
-  auto late = given.with_improver(late_at_the_corner{});
-  late.options.store = spool::start(folder / "spool", {});
+  const auto late =
+      given.with_improver(late_at_the_corner{})
+          .with_executor(parallel::checkpointed(parallel::serial{}, spool::start(folder / "spool", {})));
   for (const int reused : {0, 5}) {
     const auto result = generate<2>(domain, uniform_size(0.05), late);
     CHECK(stops_by_clock(result.summary) == 1);

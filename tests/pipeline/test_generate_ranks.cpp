@@ -1,6 +1,7 @@
 #include "dovetail/distributed/ranks.hpp"
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
@@ -48,15 +49,14 @@ TEST_CASE("ranks with spools that the others do not see make the same mesh, and 
     const auto into = folder / ("of_" + std::to_string(count));
     parallel::run_ranks(count, [&](parallel::in_process& mine) {
       const auto disk = folder / ("disk_" + std::to_string(mine.rank()));
-      generate_options options;
-      options.store =
+      const spool own =
           (again && spool::is_started(disk) ? spool::resume(disk, identity) : spool::start(disk, identity))
               .of_one_rank();
       any_communicator network(mine);
       if (again)
-        exchange_all_blobs(*options.store, network);
+        exchange_all_blobs(own, network);
       const auto before = file_count(disk);
-      CHECK(mesh_square(parallel::ranks(network), into, options) == alone);
+      CHECK(mesh_square(parallel::checkpointed(parallel::ranks(network), own), into) == alone);
       if (again)
         CHECK(file_count(disk) == before); // nothing was made
     });

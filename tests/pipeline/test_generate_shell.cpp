@@ -7,6 +7,7 @@
 #include "dovetail/files/vtu_writer.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/models/occt_model.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/sizing/sources.hpp"
 #include "files/scratch_folder.hpp"
 
@@ -77,11 +78,11 @@ TEST_CASE(
     "from the background mesh that an earlier run has kept comes the same mesh, within the same bounds") {
   const scratch_folder folder("kept_background");
   const auto run = [&](const spool& disk) {
-    auto options = in_parts(3);
-    options.store = disk;
     // Larger than the curvature allows: the bounds of the surface are the sizes.
     return generate<2>(occt_shape_from(BRepPrimAPI_MakeTorus(2.0, 0.7).Shape()).model, uniform_size(1.5),
-                       parameters<>{}.with_options(options));
+                       parameters<>{}
+                           .with_executor(parallel::checkpointed(parallel::serial{}, disk))
+                           .with_options(in_parts(3)));
   };
   const auto first = run(spool::start(folder, {}));
   const auto hash = io::mesh_hash(first.mesh);
@@ -163,10 +164,12 @@ TEST_CASE("finished pieces that cross are made again with a smaller size there")
 
 TEST_CASE("with the pieces in a spool the same crossings are found and mended") {
   const scratch_folder folder("shell_spool");
-  generate_options options = in_parts(2);
-  options.store = spool::start(folder / "spool", {{"test", "crossing"}});
+  const auto disk = spool::start(folder / "spool", {{"test", "crossing"}});
   const auto model = occt_shape_from(pipe(0.99)).model;
-  const auto stored = generate<2>(model, uniform_size(3.0), parameters<>{}.with_options(options));
+  const auto stored = generate<2>(model, uniform_size(3.0),
+                                  parameters<>{}
+                                      .with_executor(parallel::checkpointed(parallel::serial{}, disk))
+                                      .with_options(in_parts(2)));
   CHECK(crossings_of(stored) == 0);
   CHECK(io::mesh_hash(stored.mesh) == io::mesh_hash(mesh_shell(pipe(0.99), 3.0, 2).mesh));
 }

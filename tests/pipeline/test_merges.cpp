@@ -1,5 +1,4 @@
 #include "dovetail/adapters/tetgen.hpp"
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/intersection/merge_subdomains.hpp"
 #include "dovetail/intersection/suppression.hpp"
 #include "dovetail/mesh/distributed_validity.hpp"
@@ -7,6 +6,8 @@
 #include "dovetail/models/occt_model.hpp"
 #include "dovetail/models/plane/read.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/spool.hpp"
 #include "dovetail/partition/greedy.hpp"
@@ -229,7 +230,7 @@ TEST_CASE(
   generate_options options;
   options.subdomains = 16;
   options.coarse_scale = testing::flat_in_shells;
-  options.store = spool::start(scratch, {});
+  const any_executor keeps = parallel::checkpointed(parallel::serial{}, spool::start(scratch, {}));
   int searches = 0;
   options.on_progress.update = [&searches](std::string_view stage, std::size_t, std::size_t tasks) {
     // where one for crossings begins, or for angles
@@ -238,9 +239,12 @@ TEST_CASE(
   const auto run = [&] {
     asked.clear();
     searches = 0;
-    return generate<3>(
-        shell(0.97), uniform_size(0.2),
-        parameters<>{}.with_mesher(mesher::tetgen{}).with_partitioner(partitioner).with_options(options));
+    return generate<3>(shell(0.97), uniform_size(0.2),
+                       parameters<>{}
+                           .with_mesher(mesher::tetgen{})
+                           .with_partitioner(partitioner)
+                           .with_executor(keeps)
+                           .with_options(options));
   };
   const auto result = run();
   const report& account = result.summary.find("intersection");
@@ -319,21 +323,21 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
   const auto realize_with = [&](const any_surface_mesher& mesher, double least_angle_deg) {
     given.given.mesh_surface = mesher;
     given.want(least_angle_deg);
-    skeleton_store store(std::make_shared<entity_store>());
+    skeleton_memo store;
     return realize<3>(given.model, given.background.mesh, given.divided, given.pieces.part_of_element,
                       static_cast<std::size_t>(given.pieces.parts), given.background.size, store,
                       given.given);
   };
   const auto matched = realize_with({}, 30);
   CHECK(matched.summary.get("matched_lines") > 0);
-  std::set<content_key> loops;
+  std::set<kept<patch_mesh>> loops;
   const auto remembers = [&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
-    loops.insert(key_maker{}(b.points).key());
+    loops.insert(kept<patch_mesh>::of(b.points));
     return remesh::patch_remesher{}(s, b, h);
   };
   const auto refuses_others = [&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
     patch_mesh mesh = remesh::patch_remesher{}(s, b, h);
-    if (!loops.contains(key_maker{}(b.points).key()))
+    if (!loops.contains(kept<patch_mesh>::of(b.points)))
       mesh.crossings = {{0, 1}};
     return mesh;
   };
@@ -349,7 +353,7 @@ TEST_CASE("Lines whose numbers suit each other, but not the patches on them, are
 TEST_CASE("A decomposition that is given up leaves its account, and no pieces") {
   const testing::scratch_folder scratch("given_up");
   decomposed_shell given(0.5, 6);
-  given.given.options.store = spool::start(scratch, {});
+  given.given.run_tasks = parallel::checkpointed(parallel::serial{}, spool::start(scratch, {}));
   const auto pieces = [&] {
     const auto files = entries_of(scratch);
     return std::count_if(files.begin(), files.end(), [](const std::filesystem::path& file) {
@@ -363,7 +367,7 @@ TEST_CASE("A decomposition that is given up leaves its account, and no pieces") 
   CHECK(pieces() == 0);
   CHECK(account.get("rounds") > 0);
 
-  given.given.options.store = {};
+  given.given.run_tasks = parallel::serial{};
   decomposition_rounds<3, any_parameters<3>> next(given.model, given.background.mesh, given.divided,
                                                   given.background.size, given.given, account);
   CHECK(next.intersection().get("rounds") == account.get("rounds"));
@@ -393,9 +397,9 @@ TEST_CASE("After merges a search near new patches finds what a search of everyth
   const auto shell = shell_of_many_rounds();
   decomposed_shell& given = *shell;
   merge_account account(given.pieces.parts, 1);
-  skeleton_store store(std::make_shared<entity_store>());
+  skeleton_memo store;
   std::vector<local_id>& part = given.pieces.part_of_element;
-  std::vector<content_key> apart; // of patches among which nothing crosses
+  std::vector<kept<patch_mesh>> apart; // of patches among which nothing crosses
   std::size_t compared = 0;
   for (;;) {
     const auto made =
@@ -404,7 +408,7 @@ TEST_CASE("After merges a search near new patches finds what a search of everyth
     const fine_skeleton& fine = made.fine;
     const auto& first = made.patches.first_triangle;
     const auto everything = plan_for(fine);
-    const auto known = known_from_patches(fine, first, made.patches.keys, apart);
+    const auto known = known_from_patches(fine, first, made.patches.of_patch, apart);
     const auto near =
         plan_suppression(fine, std::vector<bool>(fine.sides.size(), false), parallel::serial{}, known);
     CHECK(near.crossings == everything.crossings);
@@ -414,7 +418,7 @@ TEST_CASE("After merges a search near new patches finds what a search of everyth
     if (everything.empty())
       break;
     account.merge(part, everything.merges);
-    apart = made.patches.keys;
+    apart = made.patches.of_patch;
     for (const auto& [i, j] : crossing_triangles(fine.points, fine.sides, {}, parallel::serial{}))
       apart[std::upper_bound(first.begin(), first.end(), i) - first.begin() - 1] = {};
     sort_unique(apart);
@@ -440,12 +444,11 @@ TEST_CASE("Where the faces of a shell cross, their size is made smaller until th
 
 TEST_CASE("A refinement makes again what it reaches alone, and that is what a fresh run makes") {
   decomposed_shell given(0.5, 16);
-  const auto realize_at = [&](const refined_sizing& size, skeleton_store& store) {
+  const auto realize_at = [&](const refined_sizing& size, skeleton_memo& store) {
     return realize<3>(given.model, given.background.mesh, given.divided, given.pieces.part_of_element,
                       static_cast<std::size_t>(given.pieces.parts), size, store, given.given);
   };
-  const auto empty = [] { return skeleton_store(std::make_shared<entity_store>()); };
-  skeleton_store store = empty();
+  skeleton_memo store;
   refined_sizing size(given.background.size);
   const auto before = realize_at(size, store);
   size.refine(std::vector<size_ball>{{{0, 0, 1}, 0.05, 0.15}});
@@ -455,7 +458,7 @@ TEST_CASE("A refinement makes again what it reaches alone, and that is what a fr
     CHECK(after.summary.get(made) < 0.25 * before.summary.get(made));
   }
   CHECK(after.fine.sides.size() > before.fine.sides.size());
-  skeleton_store other_store = empty();
+  skeleton_memo other_store;
   const auto fresh = realize_at(size, other_store);
   CHECK(fresh.summary.get("patches_made") > before.summary.get("patches_made") - 1);
   CHECK(fresh.fine.points == after.fine.points);

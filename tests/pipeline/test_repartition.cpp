@@ -1,6 +1,6 @@
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/decomposition/extract_skeleton.hpp"
 #include "dovetail/decomposition/skeleton_part.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/pipeline/fine_angles.hpp"
 #include "dovetail/pipeline/realize.hpp"
@@ -15,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
@@ -64,10 +63,10 @@ realized<3> with_subdomains(realized<3> made, const std::vector<local_id>& subdo
 
 TEST_CASE("Interfaces move away from small angles, but not to where something crosses") {
   decomposed_shell given(0.5, 16);
-  std::set<content_key> loops; // of the patches where interfaces stay
+  std::set<kept<patch_mesh>> loops; // of the patches where interfaces stay
   given.given.mesh_surface =
       any_surface_mesher([&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
-        loops.insert(key_maker{}(b.points).key());
+        loops.insert(kept<patch_mesh>::of(b.points));
         return remesh::patch_remesher{}(s, b, h);
       });
   const auto stays = given.rounds(0.05).realize_boundaries().value();
@@ -89,7 +88,7 @@ TEST_CASE("Interfaces move away from small angles, but not to where something cr
   given.given.mesh_surface =
       any_surface_mesher([&loops](const any_surface& s, const patch_boundary& b, const any_sizing& h) {
         patch_mesh mesh = remesh::patch_remesher{}(s, b, h);
-        if (!loops.contains(key_maker{}(b.points).key()))
+        if (!loops.contains(kept<patch_mesh>::of(b.points)))
           mesh.crossings = {{0, 1}};
         return mesh;
       });
@@ -214,7 +213,7 @@ TEST_CASE("A part has the small angles of the whole at the points inside of it")
   decomposed_shell given(0.5, 16);
   given.want(50);
   given.given.options.match_segments = false; // which may reach farther
-  skeleton_store store(std::make_shared<entity_store>());
+  skeleton_memo store;
   const auto& size = given.background.size;
   const auto& subdomain_of_element = given.pieces.part_of_element;
   const auto subdomains = static_cast<std::size_t>(given.pieces.parts);

@@ -50,6 +50,13 @@ while IFS= read -r place; do
   complain "$place: a stage names bytes"
 done < <(grep -rnE 'byte_(buffer|reader|writer)' "${stages[@]}" || true)
 
+# Where results are kept, and which ranks make them, is the executor's business (parallel/kept.hpp, parallel/memo.hpp).
+alone=(background simplification decomposition skeleton remesh intersection meshing)
+while IFS= read -r place; do
+  complain "$place: a stage names a store, a key, a rank or a folder for results"
+done < <(grep -rnE 'core/content_key|parallel/(any_communicator|common_memory|entity_store|run_results|spool)|(content_key|key_maker|entity_store|run_results|spool|store_of|lasting_store_of)\b|(\.|->)(network|leads|results)\(' \
+  "${alone[@]}" | grep -vE ':[0-9]+: *///' || true)
+
 # Its policies are template parameters: what hides one behind one type is a model of its role like others.
 while IFS= read -r place; do
   complain "$place: a stage names a type-erased policy"

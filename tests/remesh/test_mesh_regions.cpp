@@ -24,14 +24,15 @@ const any_sizing coarse = [](vec3) { return 10.0; };
 /// Regions in a list, and the set made of them.
 struct listed_regions {
   std::vector<surface_region> regions;
-  std::vector<content_key> surface_keys;
+  std::vector<std::vector<vec3>> surface_points; ///< per region, or empty
 
   region_set set() const {
     region_set made;
     made.count = regions.size();
     made.build = [listed = regions](const any_geometry&, std::size_t r) { return listed[r]; };
     made.surface_of = [](const any_geometry&, std::size_t) { return contract::plane_at_run_time(); };
-    made.surface_keys = surface_keys;
+    if (!surface_points.empty())
+      made.surface_points = [listed = surface_points](std::size_t r) { return listed[r]; };
     return made;
   }
 };
@@ -71,7 +72,7 @@ struct meshed_set {
   std::vector<patch_mesh> meshes;
 
   meshed_set(listed_regions given, const any_surface_mesher& mesher, const any_executor& run, int chords,
-             region_store& store)
+             region_memo& store)
       : list(std::move(given)), set(list.set()),
         result(mesh_regions(model, set, mesher, coarse, run, store, {.attempts = {.chords = chords}})),
         meshes(set.count) {
@@ -88,13 +89,9 @@ struct meshed_set {
   }
 };
 
-region_store empty_store() {
-  return region_store(std::make_shared<entity_store>());
-}
-
 meshed_set mesh_all(listed_regions set, const any_surface_mesher& mesher = {},
                     const any_executor& run = parallel::serial{}, int chords = 6) {
-  auto store = empty_store();
+  region_memo store;
   return {std::move(set), mesher, run, chords, store};
 }
 
@@ -232,7 +229,7 @@ TEST_CASE("a mesher that cuts its boundary fails, and the other regions do not")
 }
 
 TEST_CASE("a mesh is made once for the same region, and again for another") {
-  auto store = empty_store();
+  region_memo store;
   const auto made_with = [&](listed_regions set) {
     const std::size_t before = store.meshes.made();
     meshed_set(std::move(set), any_surface_mesher(), parallel::serial{}, 0, store);
@@ -255,15 +252,15 @@ TEST_CASE("a mesh is made once for the same region, and again for another") {
   CHECK(changed([](surface_region& r) { r.face = 3; }) == 1);
   CHECK(changed([](surface_region& r) { r.boundary.forbidden_edges = {{0, 2}}; }) == 1);
   CHECK(changed([](surface_region& r) { r.boundary.labels[3] = r.boundary.labels[2]; }) == 1);
-  set.surface_keys = {key_maker{}(1.0).key(), {}};
+  set.surface_points = {{{1, 0, 0}}, {}};
   CHECK(made_with(set) == 1); // the second one is on a face, as before
 }
 
-TEST_CASE("a mesh whose surface has a key is found by the outline of its region") {
-  auto store = empty_store();
+TEST_CASE("a mesh whose surface is known by points is found by the outline of its region") {
+  region_memo store;
   const auto made_with = [&](bool outlines, double moved) {
     listed_regions both = cushion();
-    both.surface_keys = {key_maker{}(1.0).key(), key_maker{}(2.0).key()};
+    both.surface_points = {{{1, 0, 0}}, {{2, 0, 0}}};
     both.regions[1].boundary.points[2].z = moved;
     region_set set = both.set();
     if (outlines)
@@ -285,7 +282,7 @@ TEST_CASE("a mesh whose surface has a key is found by the outline of its region"
 }
 
 TEST_CASE("chords are found again among meshes that were made before") {
-  auto store = empty_store();
+  region_memo store;
   const auto mesh = [&](listed_regions set) {
     return meshed_set(std::move(set), any_surface_mesher(careless{}), parallel::serial{}, 6, store);
   };
@@ -297,7 +294,7 @@ TEST_CASE("chords are found again among meshes that were made before") {
       label += 7; // chords are kept by places in the boundary, not by labels
   for (const meshed_set& again : {mesh(cushion()), mesh(renamed)}) {
     CHECK(store.meshes.made() == made);
-    CHECK(again.result.keys == first.result.keys);
+    CHECK(again.result.of_region == first.result.of_region);
     CHECK(again.set.forbidden_edges.at(1).size() == 1);
     for (const auto& [chord, regions] : again.regions_at_chords())
       CHECK(regions.size() == 1);
@@ -338,7 +335,7 @@ TEST_CASE("a region that bulges far out of its boundary is refined where it is, 
   refined_sizing size(coarse);
   const std::vector<size_ball> tip{{{0.5, 0.5, 40}, 0.1, 0.1}};
   size.refine(tip);
-  CHECK(size.key_near(place_of(boundary, surface)) != content_key{});
+  CHECK(size.balls_near(place_of(boundary, surface)).size() == 1);
   CHECK(size.near(place_of(boundary, surface))(tip.front().center) == doctest::Approx(0.1));
-  CHECK(size.key_near(place_of(boundary, contract::plane_at_run_time())) == content_key{});
+  CHECK(size.balls_near(place_of(boundary, contract::plane_at_run_time())).empty());
 }

@@ -1,4 +1,5 @@
 // Sizes that are sent to another process as bytes are the same there.
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/sizing/background.hpp"
 #include "dovetail/sizing/graded.hpp"
 #include "dovetail/sizing/point_sizes.hpp"
@@ -128,7 +129,8 @@ TEST_CASE("A field of sizes at points is sent as these") {
              [](byte_reader& from) { return point_sizes::decode(from); });
 }
 
-TEST_CASE("What rounds of refinement added is sent, for the field it was added to, with the same keys") {
+TEST_CASE(
+    "What rounds of refinement added is sent, for the field it was added to, with the same balls at places") {
   refined_sizing field(uneven);
   random_places places;
   for (int round = 0; round < 3; ++round) {
@@ -143,16 +145,16 @@ TEST_CASE("What rounds of refinement added is sent, for the field it was added t
   byte_reader from(bytes);
   const auto there = refined_sizing::decode(uneven, from);
   const any_sizing everywhere = field.everywhere(), everywhere_there = there.everywhere();
-  int different = 0, keys = 0;
+  int different = 0, refined = 0;
   for (int k = 0; k < samples; ++k) {
     const box3 box = places.box();
-    different += field.key_near(box).value != there.key_near(box).value;
-    keys += field.key_near(box).value != content_key{}.value;
+    different += kept<int>::of(field.balls_near(box)) != kept<int>::of(there.balls_near(box));
+    refined += !field.balls_near(box).empty();
     const vec3 p = places.point();
     different += everywhere(p) != everywhere_there(p);
     if (k % 100 == 0)
       different += field.near(box)(p) != there.near(box)(p);
   }
   CHECK(different == 0);
-  CHECK(keys > 0);
+  CHECK(refined > 0);
 }

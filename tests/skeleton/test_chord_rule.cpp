@@ -94,33 +94,33 @@ bool forbids_over_front(const cut_cube& cube, const planes& flat) {
   return cube.rule(flat).forbids(cube.region_on(front), cube.point({0, 0, 0}), cube.point({1, 0, 1}));
 }
 
-content_key key_of_front(const cut_cube& cube, const planes& flat) {
+std::vector<std::int64_t> facts_of_front(const cut_cube& cube, const planes& flat) {
   std::vector<local_id> points;
   for (std::size_t v = 0; v < cube.lines.points.size(); ++v)
     if (cube.lines.points[v].y == 0)
       points.push_back(static_cast<local_id>(v));
-  return cube.rule(flat).key(std::array{cube.region_on(front)}, points);
+  return cube.rule(flat).facts(std::array{cube.region_on(front)}, points);
 }
 
-content_key key_of_left(const cut_cube& cube) {
-  return cube.rule().key(std::array{cube.region_on(left)}, cube.points_of_left());
+std::vector<std::int64_t> facts_of_left(const cut_cube& cube) {
+  return cube.rule().facts(std::array{cube.region_on(left)}, cube.points_of_left());
 }
 
 } // namespace
 
 TEST_CASE(
-    "the key of the chords that a piece must not have changes with them, and not with what is elsewhere") {
+    "the facts about chords that a piece must not have change with them, and not with what is elsewhere") {
   const cut_cube plain({}), cut_beside({front}), cut_behind({right});
   REQUIRE(plain.region_on(front) < plain.region_on(left)); // of two regions the first may have the chord
   REQUIRE(plain.points_of_left().size() == 8);
   REQUIRE(cut_beside.points_of_left().size() == 8); // the boundary is the same
   CHECK(forbids_the_edge_of_front(plain));
   CHECK(!forbids_the_edge_of_front(cut_beside));
-  CHECK(key_of_left(plain) != key_of_left(cut_beside));
+  CHECK(facts_of_left(plain) != facts_of_left(cut_beside));
 
   REQUIRE(cut_behind.lines.points.size() > plain.lines.points.size());
   CHECK(forbids_the_edge_of_front(cut_behind));
-  CHECK(key_of_left(plain) == key_of_left(cut_behind));
+  CHECK(facts_of_left(plain) == facts_of_left(cut_behind));
 }
 
 TEST_CASE("a flat region may have a chord before those that are curved, whichever comes first") {
@@ -136,7 +136,7 @@ TEST_CASE("a flat region may have a chord before those that are curved, whicheve
   CHECK(!forbidden({{}, {{left, {1, 0, 0}}}})[1]);
 }
 
-TEST_CASE("a curved region has no chord in the plane of two faces beside it, and its key tells") {
+TEST_CASE("a curved region has no chord in the plane of two faces beside it, and its facts tell") {
   const cut_cube cube({});
   const planes one_plane{{}, {{left, {1, 0, 0}}, {right, {1, 0, 0}}}};
   const planes two_planes{{}, {{left, {1, 0, 0}}, {right, {2, 0, 0}}}};
@@ -145,8 +145,8 @@ TEST_CASE("a curved region has no chord in the plane of two faces beside it, and
   CHECK(!forbids_over_front(cube, two_planes));
   CHECK(!forbids_over_front(cube, inclined));
   CHECK(!forbids_over_front(cube, {{}, {{left, {1, 0, 0}}}}));
-  CHECK(key_of_front(cube, one_plane) != key_of_front(cube, two_planes));
-  CHECK(key_of_front(cube, inclined) == key_of_front(cube, two_planes));
+  CHECK(facts_of_front(cube, one_plane) != facts_of_front(cube, two_planes));
+  CHECK(facts_of_front(cube, inclined) == facts_of_front(cube, two_planes));
   const planes all_flat{{}, {{left, {1, 0, 0}}, {right, {1, 0, 0}}, {front, {0, 1, 0}}}};
   CHECK(!forbids_over_front(cube, all_flat)); // its triangles are in its own plane
 }

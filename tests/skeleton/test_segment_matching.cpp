@@ -26,7 +26,7 @@ struct two_faces {
   std::vector<vec3> points;
   coarse_skeleton skeleton;
   std::size_t matched = 0; ///< lines, by the last `remesh`
-  matched_faces made_segments{std::make_shared<entity_store>()};
+  matched_faces made_segments = {};
   progress on_progress = {}; ///< of the matching
 
   explicit two_faces(std::vector<vec3> corners) : points(std::move(corners)) {
@@ -36,9 +36,8 @@ struct two_faces {
   }
 
   remeshed_skeleton remesh(double least_angle_deg) {
-    const auto store = std::make_shared<entity_store>();
-    batched_entities<fine_line> made_lines(store);
-    region_store made_patches(store);
+    memo<fine_line> made_lines;
+    region_memo made_patches;
     const refined_sizing size(unit_size);
     numbered_lines lines;
     const surface_mesh no_surface;

@@ -1,6 +1,7 @@
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 using namespace dovetail;
@@ -27,15 +27,15 @@ constexpr double size_of_triangles = 0.005;
 
 /// A strip of interface faces between subdomains 0 and 1: so fine that they are put together in several
 /// tasks.
-fine_skeleton strip(const any_executor& run, const std::shared_ptr<entity_store>& store) {
+fine_skeleton strip(const any_executor& run) {
   const std::vector<vec3> points = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0.5}};
   coarse_skeleton coarse;
   for (const auto& [a, b] : {simplex<1>{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}, {2, 4}, {3, 4}})
     coarse.lines.push_back({{a, b}, {3, no_id}, {}, {}});
   coarse.faces = {{{0, 2, 1}, {0, 1}}, {{1, 2, 3}, {0, 1}}, {{2, 4, 3}, {1, 0}}};
   const refined_sizing size{any_sizing([](vec3) { return size_of_triangles; })};
-  batched_entities<fine_line> made_lines(store);
-  region_store made_patches(store);
+  memo<fine_line> made_lines(run, "skeleton");
+  region_memo made_patches{{run, "skeleton"}};
   const numbered_lines lines =
       number_lines(coarse, remesh_lines(square, coarse.lines, points, size, run, made_lines), points, {});
   const surface_mesh no_surface;
@@ -56,7 +56,7 @@ void check_same(const fine_skeleton& one, const fine_skeleton& other) {
 } // namespace
 
 TEST_CASE("Patches fit together, and what lies inside has the solid of the subdomains beside it") {
-  const fine_skeleton alone = strip(parallel::serial{}, std::make_shared<entity_store>());
+  const fine_skeleton alone = strip(parallel::serial{});
   REQUIRE(alone.sides.size() > 2 << 16);
   CHECK(alone.point_hosts.size() == alone.points.size());
   CHECK(std::all_of(alone.point_hosts.begin(), alone.point_hosts.end(), [](const host& on) {
@@ -80,12 +80,12 @@ TEST_CASE("Patches fit together, and what lies inside has the solid of the subdo
 }
 
 TEST_CASE("Whoever puts patches together, they are in the same order") {
-  const fine_skeleton alone = strip(parallel::serial{}, std::make_shared<entity_store>());
+  const fine_skeleton alone = strip(parallel::serial{});
   for (const any_executor& run : {any_executor(parallel::threads{2}), any_executor(parallel::processes{2})})
-    check_same(strip(run, std::make_shared<entity_store>()), alone);
+    check_same(strip(run), alone);
   const testing::scratch_folder scratch("skeleton_assembly");
   const auto disk = spool::start(scratch / "spool", {});
   parallel::run_ranks(2, [&](parallel::in_process& mine) {
-    check_same(strip(parallel::ranks(mine), std::make_shared<entity_store>(disk, "skeleton")), alone);
+    check_same(strip(parallel::checkpointed(parallel::ranks(mine), disk)), alone);
   });
 }

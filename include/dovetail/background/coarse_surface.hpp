@@ -61,7 +61,7 @@ struct coarse_surface_parameters {
 namespace detail {
 
 /// Meshes regions of the model at a size.
-using regions_mesher = std::function<meshed_regions(region_set&, const refined_sizing&, region_store&,
+using regions_mesher = std::function<meshed_regions(region_set&, const refined_sizing&, region_memo&,
                                                     const mesh_regions_options&)>;
 
 /// `coarse_surface` by such a function.
@@ -79,9 +79,9 @@ template <surface_mesher Mesher>
 coarse_surface_result coarse_surface(const any_geometry& model, const any_sizing& sizing,
                                      const coarse_surface_parameters& parameters,
                                      const any_executor& run_tasks, const Mesher& mesher) {
-  const auto mesh_them = [&](region_set& faces, const refined_sizing& size, region_store& store,
+  const auto mesh_them = [&](region_set& faces, const refined_sizing& size, region_memo& made,
                              const mesh_regions_options& options) {
-    return mesh_regions(model, faces, mesher, size, run_tasks, store, options);
+    return mesh_regions(model, faces, mesher, size, run_tasks, made, options);
   };
   return detail::coarse_surface_by(model, sizing, parameters, mesh_them);
 }

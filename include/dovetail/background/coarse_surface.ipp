@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <optional>
 #include <set>
 #include <utility>
@@ -99,13 +98,13 @@ private:
   /// Faces are kept apart from each other when each is right: what is done about the others moves points.
   void mesh() {
     const auto mesh_missing = [&](int chords) {
-      meshed_ = mesh_them_(faces_, size_, store_,
+      meshed_ = mesh_them_(faces_, size_, made_,
                            {.attempts = {.chords = chords, .folds = 0},
                             .triangles_per_task = 512,
                             .on_progress = parameters_.on_progress,
                             .stage = "coarse surface"});
       meshes_.assign(face_count(), {});
-      meshed_.for_each(store_, [&](std::size_t f, patch_mesh mesh) { meshes_[f] = std::move(mesh); });
+      meshed_.for_each(made_, [&](std::size_t f, patch_mesh mesh) { meshes_[f] = std::move(mesh); });
     };
     mesh_missing(0);
     bool all = true;
@@ -293,7 +292,7 @@ private:
   region_set faces_{.count = 0,
                     .build = [this](const any_geometry&, std::size_t f) { return regions_[f]; },
                     .surface_of = {}};
-  region_store store_{std::make_shared<entity_store>()}; ///< faces out of reach of what is refined stay
+  region_memo made_; ///< faces out of reach of what is refined stay
   meshed_regions meshed_;
   std::vector<patch_mesh> meshes_; ///< of the faces
   std::vector<intervals> origins_; ///< of the segments of each face

@@ -7,6 +7,7 @@
 #include "dovetail/geometry/concepts.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/remembering.hpp"
 
 #include <array>
 #include <functional>
@@ -64,7 +65,8 @@ coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_t
                                    const any_executor& run_tasks, const coarse_volume_options& options = {}) {
   const auto mesh_them = [&](std::size_t count, const subdomain_source& source,
                              const meshing_options& attempt) {
-    return mesh_subdomains(count, source, mesh_it, improve, size, run_tasks, attempt);
+    // Pieces of other sizes are not to be taken for these.
+    return mesh_subdomains(count, source, mesh_it, improve, size, parallel::forgetting(run_tasks), attempt);
   };
   return detail::fill_solids(surface, topology, mesh_them, options);
 }

@@ -7,13 +7,10 @@
 #include "dovetail/distributed/concepts.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/serial.hpp"
-#include "dovetail/parallel/spool.hpp"
 #include "dovetail/partition/any_distributed_partitioner.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/any_simplification_rule.hpp"
 #include "dovetail/simplification/paper.hpp"
-
-#include <optional>
 
 namespace dovetail::redistribution_by {
 
@@ -32,8 +29,7 @@ struct elements {
   int super_elements = 2000;                                     ///< about so many of each piece
   double seam_weight = 4;  ///< of a side that is an interface already; of others it is 1
   double imbalance = 1.03; ///< largest over average rank that is tried for; a warning where it is more
-  any_executor run_tasks = parallel::serial{}; ///< loads, joins and cuts pieces
-  std::optional<spool> store = {};             ///< where new pieces are kept; none: in memory
+  any_executor run_tasks = parallel::serial{}; ///< loads, joins and cuts pieces, and keeps them
   progress on_progress = {};                   ///< told how the stages come along
 
   /// The summary has, beside what `describe_redistribution` says: super_elements, seams_before and
@@ -45,7 +41,7 @@ struct elements {
   ///
   /// Throws what the partitioner and the rule throw, `partition_error` for ranks that cannot have a piece
   /// each, `mesh_error` when pieces and skeleton disagree or an element would be lost, `usage_error` for a
-  /// mesh of second order, `io_error` of the store, and `cancelled`.
+  /// mesh of second order, `io_error` of what is kept, and `cancelled`.
   template <int D>
   redistribution<D> operator()(const distributed_simplicial_mesh<D>& mesh, int ranks) const;
 };

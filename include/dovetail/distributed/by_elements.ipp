@@ -16,6 +16,7 @@
 #include "dovetail/mesh/mesh_hash.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/parallel/kept_tasks.hpp"
+#include "dovetail/parallel/run_results.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/refinement.hpp"
 
@@ -98,8 +99,8 @@ public:
   element_redistribution(const distributed_simplicial_mesh<D>& mesh, int ranks,
                          const redistribution_by::elements& given)
       : mesh_(mesh), ranks_(ranks), given_(given), sides_(mesh),
-        store_(std::make_shared<entity_store>(given.store, "redistributed")), tasks_{given.run_tasks, *store_,
-                                                                                     given.on_progress} {
+        store_(store_of(given.run_tasks, "redistributed")), tasks_{given.run_tasks, *store_,
+                                                                   given.on_progress} {
     if (ranks < 1 || mesh.counts.empty())
       throw partition_error("cannot give elements to " + std::to_string(ranks) +
                             " ranks; ask for one at least");

@@ -9,11 +9,9 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/spool.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace dovetail {
@@ -41,14 +39,13 @@ quality_statistics quality_of_whole(const distributed_mesh& mesh);
 
 /// How pieces are improved.
 struct improving_options {
-  std::optional<spool> store = {}; ///< where improved pieces are kept; none: in memory
   progress on_progress = {};       ///< told how the pieces come along
   std::vector<local_id> only = {}; ///< the pieces to improve, growing; none: all
 };
 
 /// A task per piece, without any communication between them: points and sides of the skeleton stay, so the
 /// result conforms, which each task checks. It is the same for any executor. Memory: a piece per worker, and
-/// all of them without a store.
+/// all of them unless the executor keeps its results on a disk.
 ///
 /// Throws `mesh_error` that names the piece when the improver fails or changes what it may not, `usage_error`
 /// for a mesh of second order or an improver that may not run in the executor's threads, `io_error` and
@@ -58,7 +55,7 @@ struct improving_options {
 /// \param improve improves a piece inside its boundary
 /// \param size edge lengths wanted, in the units of the model
 /// \param run_tasks carries out independent tasks; the result does not depend on it
-/// \param options store, progress, and which pieces
+/// \param options progress, and which pieces
 improved_pieces improve_pieces(const distributed_mesh& mesh, const any_improver<3>& improve,
                                const any_sizing& size, const any_executor& run_tasks,
                                const improving_options& options = {});

@@ -10,6 +10,7 @@
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/parallel/kept_tasks.hpp"
+#include "dovetail/parallel/run_results.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -57,7 +58,7 @@ DOVETAIL_INLINE improved_pieces improve_pieces(const distributed_mesh& mesh, con
     throw usage_error(named_policy("improver", improve.name()) +
                       " must not run in several threads of one process; use worker processes");
   const io::sides_by_subdomain<3> sides(mesh);
-  const auto store = std::make_shared<entity_store>(options.store, "improved");
+  const auto store = store_of(run_tasks, "improved");
   const kept_tasks tasks{run_tasks, *store, options.on_progress};
   const auto keys = std::make_shared<std::vector<content_key>>(mesh.counts.size());
   improved_pieces result{mesh, {}, {}, std::vector<local_id>(mesh.counts.size())};

@@ -15,7 +15,7 @@ namespace dovetail::parallel {
 
 /// A model of `executor`. All ranks go through the same program and call `run` with the same tasks; each task
 /// is run on one of them, by request, and its outcome is known on all, so that they go on alike. What a task
-/// keeps in an entity store on a disk that all ranks see is not sent. Of a machine with fewer processors than
+/// keeps on a disk that all ranks see is not sent. Of a machine with fewer processors than
 /// workers only so many ranks take tasks in one run, others in the next.
 ///
 /// With `worker_count` above 0 a rank runs its tasks in so many forked processes, as `processes` does, and

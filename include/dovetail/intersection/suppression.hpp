@@ -4,9 +4,10 @@
 /// size there.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/intersection/crossing_triangles.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/parallel/kept.hpp"
+#include "dovetail/remesh/patch.hpp"
 
 #include <array>
 #include <cstddef>
@@ -50,11 +51,11 @@ struct known_apart {
   std::vector<box3> around_others; ///< boxes that together hold all others
 };
 
-/// What is known of a skeleton whose patches of some keys, `apart`, growing, are of one without crossings.
-/// Triangles of patch p begin at `first_triangle[p]` and end where the next one's begin. Nothing without such
-/// keys.
+/// What is known of a skeleton some of whose patches, `apart`, growing, are of one without crossings.
+/// Triangles of patch p begin at `first_triangle[p]` and end where the next one's begin. Nothing without any.
 known_apart known_from_patches(const fine_skeleton& skeleton, std::span<const local_id> first_triangle,
-                               std::span<const content_key> patch_keys, std::span<const content_key> apart);
+                               std::span<const kept<patch_mesh>> patches,
+                               std::span<const kept<patch_mesh>> apart);
 
 /// Finds the crossings of a fine skeleton. Two triangles of planar interface faces are not tested: those
 /// faces are parts of the coarse mesh. `planar(t)` says whether triangle t belongs to one. Of two crossing

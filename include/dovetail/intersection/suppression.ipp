@@ -85,14 +85,14 @@ inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleto
 
 DOVETAIL_INLINE known_apart known_from_patches(const fine_skeleton& skeleton,
                                                std::span<const local_id> first_triangle,
-                                               std::span<const content_key> patch_keys,
-                                               std::span<const content_key> apart) {
+                                               std::span<const kept<patch_mesh>> patches,
+                                               std::span<const kept<patch_mesh>> apart) {
   known_apart known;
   if (apart.empty())
     return known;
   known.triangles.resize(skeleton.sides.size(), false);
-  for (std::size_t p = 0; p < patch_keys.size(); ++p)
-    if (std::binary_search(apart.begin(), apart.end(), patch_keys[p])) {
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    if (std::binary_search(apart.begin(), apart.end(), patches[p])) {
       std::fill(known.triangles.begin() + first_triangle[p], known.triangles.begin() + first_triangle[p + 1],
                 true);
     } else {

@@ -124,7 +124,7 @@ struct piece_counts {
   using fields = field_list<&piece_counts::material, &piece_counts::inner_points, &piece_counts::elements>;
 };
 
-/// What its store keeps in place of a piece that it has given up.
+/// What is kept in place of a piece that was given up.
 struct piece_note {
   /// A file of the piece.
   struct file {

@@ -1,21 +1,19 @@
 /// @file
-/// Meshes, improves, checks and stores every subdomain through an executor. Failed ones are tried by the
+/// Meshes, improves and checks every subdomain through an executor. Failed ones are tried by the
 /// mesher's fallbacks in rounds; those that still fail come back as data.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/policy.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -36,6 +34,9 @@ struct piece_failure {
   bool timed_out = false; ///< some attempt reached the wall-clock limit: the mesh may differ next time
   std::size_t crossing_facets = 0; ///< boundary triangles that cross others; known when a file was written
   std::filesystem::path facets;    ///< OFF file of the offending facets, when one was written
+
+  using fields = field_list<&piece_failure::subdomain, &piece_failure::reasons, &piece_failure::timed_out,
+                            &piece_failure::crossing_facets, &piece_failure::facets>;
 };
 
 /// How subdomains are meshed.
@@ -43,15 +44,11 @@ struct meshing_options {
   /// Predicted cost of each subdomain, in any unit; the largest are started first. Empty: in order of number.
   std::vector<double> predicted_cost = {};
   std::vector<local_id> wanted = {}; ///< the subdomains that are meshed, each once; empty: all
-  /// Finished pieces go here under their keys; those that are there already are not made again. Without a
-  /// store the result has one of its own, in memory. Mesher, improver and the plain sizes must be the same as
-  /// long as the store is.
-  std::shared_ptr<entity_store> store = {};
   /// The `skeleton_points` of a subdomain's input, called by `load` whenever it is. Empty: `load` asks the
   /// source, so that what that refers to must last as long as the result.
   std::function<std::vector<local_id>(local_id)> skeleton_points = {};
   /// Called with every subdomain of D = 3 that failed on all attempts and the boundary that none could fill,
-  /// to keep a record of it; may be empty.
+  /// to keep a record of it, by the process that leads; may be empty.
   std::function<void(piece_failure&, const simplicial_mesh<2>&)> on_failure = {};
   progress on_progress = {}; ///< told how the subdomains come along
 };
@@ -60,7 +57,7 @@ struct meshing_options {
 struct meshing_counts {
   global_id elements = 0;           ///< of all pieces
   global_id inner_points = 0;       ///< of all pieces
-  std::size_t reused = 0;           ///< pieces found in the store
+  std::size_t reused = 0;           ///< pieces that had been made before
   std::size_t retried = 0;          ///< subdomains whose first attempt failed
   std::size_t failed = 0;           ///< those that no attempt could mesh
   double stops_by_clock = 0;        ///< of pieces that a time limit has left to another attempt
@@ -79,15 +76,15 @@ template <int D>
 struct meshed_pieces {
   /// Per subdomain; counts are 0 where it failed, or was not wanted. Of a report only "attempt",
   /// "stops_by_clock", and the seconds, warnings and deviations of its children: counters of mesher and
-  /// improver stay in the store.
+  /// improver stay with the piece.
   std::vector<piece_summary> pieces;
-  std::vector<content_key> keys;       ///< per subdomain: of its piece in the store; 0 where there is none
-  std::vector<piece_failure> failures; ///< by growing subdomain
-  quality_statistics quality;          ///< of all pieces together
+  std::vector<kept<finished_piece<D>>> finished; ///< per subdomain; none where it failed, or was not wanted
+  std::vector<piece_failure> failures;           ///< by growing subdomain
+  quality_statistics quality;                    ///< of all pieces together
   /// A finished piece; `io_error` when its file is damaged.
   std::function<simplicial_piece<D>(local_id)> load;
   std::function<void(local_id, const piece_note&)>
-      release; ///< of `distributed_simplicial_mesh`, with a spool
+      release; ///< of `distributed_simplicial_mesh`, where all ranks see them
   /// The note that was left in place of a piece that was given up.
   std::function<std::optional<piece_note>(local_id)> released;
   report summary; ///< `meshing_counts`
@@ -136,15 +133,15 @@ meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source
 } // namespace detail
 
 /// Meshes subdomains 0 .. count-1. In the worker, right after meshing: the checks of `check_mesher_result`,
-/// improvement, the same checks again, quality, and the write to the store, under a key of the piece's
-/// boundary and the sizes near it: what the store has is not made again, whatever its number was then. A
-/// round ends before the next begins, and what it tries depends on its number only, so the result does not
+/// improvement, the same checks again, and quality. What `run_tasks` has kept (`remembering`) is not made
+/// again, whatever its number was then: mesher, improver and plain sizes must be the same as then. A round
+/// ends before the next begins, and what it tries depends on its number only, so the result does not
 /// depend on the number of workers, nor on whether the run was interrupted and resumed.
 ///
 /// Failed subdomains do not throw. Throws what `require_policies` throws, `usage_error` of a policy that may
 /// not run where it is called (one with a child process, in a process with other threads), `io_error` when a
-/// finished piece cannot be stored, `sizing_error` when the field gives an unusable size, and `cancelled`.
-/// Memory: one piece per worker with a spool, else the whole mesh.
+/// finished piece cannot be kept, `sizing_error` when the field gives an unusable size, and `cancelled`.
+/// Memory: one piece per worker where pieces are kept on a disk, else the whole mesh.
 ///
 /// An attempt is a task of `run_tasks` and ends at its limit (`clock_watch`).
 /// Pieces are left as meshed when `improve` holds nothing. In D = 2 they are subsurfaces.
@@ -155,7 +152,7 @@ meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source
 /// \param improve improves a piece inside its boundary; may hold nothing
 /// \param size edge lengths wanted, in the units of the model
 /// \param run_tasks carries out independent tasks; the result does not depend on it
-/// \param options attempts, time limits, store and progress
+/// \param options which ones, in which order, and progress
 template <int D = 3, boundary_keeping_mesher<D> Mesher, improver<D> Improver>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
                                  const Mesher& mesh_it, const Improver& improve, const refined_sizing& size,

@@ -9,7 +9,6 @@
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/piece_work.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/parallel/kept_results.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 
@@ -41,8 +40,7 @@ public:
         skeleton_points_(options.skeleton_points
                              ? options.skeleton_points
                              : [source](local_id s) { return source(s).skeleton_points; }),
-        pieces_(std::make_shared<kept_pieces<D>>(count, options.store ? options.store
-                                                                      : std::make_shared<entity_store>())) {
+        pieces_(std::make_shared<kept_pieces<D>>(count, run_tasks, name_of_pieces)) {
     result_.pieces.resize(count);
     std::vector<local_id> wanted = options.wanted;
     if (wanted.empty()) {
@@ -60,8 +58,7 @@ public:
       run_round(attempt);
     report_failures();
     summarize();
-    result_.keys = pieces_->keys();
-    pieces_->exchange(run_tasks_.network());
+    result_.finished = pieces_->all();
     result_.summary.seconds = clock.seconds();
     serve_pieces();
     return std::move(result_);
@@ -104,7 +101,7 @@ private:
     auto results = pieces_->make(
         pending_.size(), run_tasks_, [&](std::size_t k) { return pending_[k].subdomain; },
         [&](std::size_t k) { return source_(pending_[k].subdomain); },
-        [&](const piece_input<D>& input) { return key_of(input, size_.key_near(place(input))); },
+        [&](const piece_input<D>& input) { return kept_piece(input, size_.balls_near(place(input))); },
         [&](std::size_t k, const piece_input<D>& input) { return piece_by(pending_[k], input, attempt); },
         brief_summary, round);
     std::vector<piece_failure> failed;
@@ -144,9 +141,13 @@ private:
   void report_failures() {
     result_.failures = std::move(pending_);
     if constexpr (D == 3)
-      if (options_.on_failure && run_tasks_.leads())
-        for (piece_failure& failure : result_.failures)
-          options_.on_failure(failure, source_(failure.subdomain).boundary.boundary);
+      for (piece_failure& failure : result_.failures)
+        failure = run_tasks_.once([&] {
+          piece_failure recorded = failure;
+          if (options_.on_failure)
+            options_.on_failure(recorded, source_(failure.subdomain).boundary.boundary);
+          return recorded;
+        });
   }
 
   void summarize() {

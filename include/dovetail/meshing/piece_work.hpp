@@ -2,7 +2,6 @@
 /// What a worker does for one subdomain: mesh, improve, check and measure.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/failure_reasons.hpp"
 #include "dovetail/core/fields.hpp"
@@ -15,6 +14,7 @@
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/mesher/surface_checks.hpp"
 #include "dovetail/meshing/piece_improvement.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
 #include <cstdint>
@@ -32,7 +32,8 @@ struct piece_input {
   mesher_input<D> boundary;                    ///< as a mesher takes it
   std::vector<local_id> skeleton_points;       ///< per boundary point: its index in the fine skeleton
   std::vector<std::uint8_t> on_interface = {}; ///< per boundary point; empty where nobody has looked
-  content_key context = {}; ///< of what else the piece is a function of: the chords it must not have (D = 2)
+  /// What else the piece is a function of: the chords it must not have (D = 2).
+  std::vector<std::int64_t> context = {};
 };
 
 using subdomain_input = piece_input<3>; ///< that of tetrahedra
@@ -69,20 +70,24 @@ inline box3 place_of(const piece_input<3>& input) {
 }
 box3 place_of(const piece_input<2>& input);
 
-/// The key of a piece: its boundary as the mesher gets it, and the key of the sizes near it. The numbers of
-/// its points in the skeleton are no part of it, since a merge elsewhere changes these.
+/// What finished pieces are called where a run keeps them.
+inline constexpr const char* name_of_pieces = "piece";
+
+/// The name of the piece of a boundary as the mesher gets it, and of what refines the sizes near it. The
+/// numbers of its points in the skeleton are no part of it, since a merge elsewhere changes these.
 template <int D>
-content_key key_of(const piece_input<D>& input, content_key sizes) {
-  key_maker make(sizes, input.context);
-  make(std::int64_t{D})(std::int64_t{input.boundary.material})(input.boundary.boundary.points)(
-      input.boundary.boundary.elements)(input.on_interface);
+kept<finished_piece<D>> kept_piece(const piece_input<D>& input, const std::vector<size_ball>& sizes) {
+  const mesher_input<D>& boundary = input.boundary;
+  std::vector<patch_boundary> outlines;
+  std::vector<std::pair<local_id, bool>> faces; // with their turn
   if constexpr (D == 2)
-    for (const surface_region& region : input.boundary.regions) {
-      const patch_boundary& b = region.boundary;
-      make(std::int64_t{region.face})(std::int64_t{region.reversed})(b.uv)(b.points)(b.labels)(b.segments)(
-          b.forbidden_edges);
+    for (const surface_region& region : boundary.regions) {
+      outlines.push_back(region.boundary);
+      faces.emplace_back(region.face, region.reversed);
     }
-  return make.key();
+  return kept<finished_piece<D>>::of(D, boundary.material, boundary.boundary.points,
+                                     boundary.boundary.elements, input.on_interface, input.context, outlines,
+                                     faces, sizes);
 }
 
 /// The reasons of failed attempts in one line, equal ones once: "attempts 1, 3: ...; attempt 2: ...".

@@ -2,7 +2,6 @@
 /// What `piece_work.hpp` declares.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/mesh/require_valid.hpp"

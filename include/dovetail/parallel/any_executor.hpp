@@ -10,6 +10,7 @@
 
 #include <concepts>
 #include <functional>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -31,6 +32,8 @@ public:
       once_ = [held = policy](const std::function<byte_buffer()>& work) { return held.once(work); };
     else
       once_ = [held = network_](const auto& work) mutable { return held.once(work); };
+    if constexpr (detail::has_results<E>)
+      results_ = policy.results();
     run_ = [held = std::move(policy)](std::size_t count, const task_function& task,
                                       const run_options& options) { return held.run(count, task, options); };
   }
@@ -41,6 +44,8 @@ public:
   bool shares_process() const { return shares_process_; }
   /// Of the ranks that go through the same program; `self` where there is one process.
   any_communicator network() const { return network_; }
+  /// Where it keeps what stages have made; null where it keeps nothing (see `remembering`).
+  std::shared_ptr<run_results> results() const { return results_; }
   /// Whether what is not a task, files for example, is this process's to do: not on all ranks of `ranks`.
   bool leads() const { return network_.leads(); }
   /// Whether other processes go through the same program, so that what is made `once` has to be bytes.
@@ -78,6 +83,7 @@ private:
   int workers_;
   bool shares_process_;
   any_communicator network_;
+  std::shared_ptr<run_results> results_;
   std::function<byte_buffer(const std::function<byte_buffer()>&)> once_;
   std::function<std::vector<task_outcome>(std::size_t, const task_function&, const run_options&)> run_;
 };

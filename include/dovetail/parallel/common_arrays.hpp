@@ -25,9 +25,9 @@ class common_arrays {
 public:
   /// So many items of each type, all of them zeros. Collective; throws `io_error` on all ranks when they
   /// cannot be made.
-  common_arrays(const any_executor& run, const entity_store& store, const std::string& name,
+  common_arrays(const any_executor& run, const std::string& name,
                 const std::array<std::size_t, sizeof...(Items)>& counts)
-      : counts_(counts), begins_(begins_of(counts)), memory_(run, store, name, begins_.back()) {}
+      : counts_(counts), begins_(begins_of(counts)), memory_(run, name, begins_.back()) {}
 
   /// Runs `task(i)` for each i, which writes and returns nothing. An error of a task is thrown.
   template <class Task>

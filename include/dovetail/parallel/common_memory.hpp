@@ -5,7 +5,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/shared_array.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
 
@@ -24,14 +23,13 @@
 
 namespace dovetail {
 
-/// Ranks that see one spool have it in a file there, which each machine holds once, in pages that it can also
-/// put back to disk; ranks that do not, each in memory of its own. The file of a name takes the place of that
-/// before it, which may not be read any more; the spool removes the last one.
+/// Ranks that keep their results in one spool have it in a file there, which each machine holds once, in
+/// pages that it can also put back to disk; ranks that do not, each in memory of its own. The file of a name
+/// takes the place of that before it, which may not be read any more; the spool removes the last one.
 class common_memory {
 public:
   /// Of `bytes` zeros. Collective; throws `io_error` on all ranks when the file cannot be made.
-  common_memory(const any_executor& run, const entity_store& store, const std::string& name,
-                std::size_t bytes);
+  common_memory(const any_executor& run, const std::string& name, std::size_t bytes);
 
   /// Runs `task(i)` for each i, which writes and returns nothing. An error of a task is thrown.
   template <class Task>

@@ -5,8 +5,8 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/common_memory.hpp"
-#include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
+#include "dovetail/parallel/run_results.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -24,11 +24,11 @@
 
 namespace dovetail {
 
-DOVETAIL_INLINE common_memory::common_memory(const any_executor& run, const entity_store& store,
-                                             const std::string& name, std::size_t bytes)
+DOVETAIL_INLINE common_memory::common_memory(const any_executor& run, const std::string& name,
+                                             std::size_t bytes)
     : run_(run), bytes_(std::max<std::size_t>(bytes, 1)) {
-  if (run.has_others() && store.is_common())
-    file_ = store.place_of_file(name);
+  if (const auto store = store_of(run, "common"); run.has_others() && store->is_common())
+    file_ = store->place_of_file(name);
   if (file_)
     run_.once([this] { make_file(); });
   else if (run.has_others() || run.shares_process())

@@ -11,10 +11,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace dovetail {
+
+class run_results; // parallel/run_results.hpp
 
 /// What became of one task.
 struct task_outcome {
@@ -63,9 +66,11 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 /// Failure: throws `usage_error` when it may not run here, `cancelled` when the caller asks to stop.
 ///
 /// An executor whose tasks are shared by several ranks of the same program has also `e.network()`, their
-/// any_communicator; see `ranks`. A wrapper may have `e.once(work)` in place of the network's.
+/// any_communicator; see `ranks`. A wrapper may have `e.once(work)` in place of the network's. One that keeps
+/// what was made has `e.results()`; see `remembering`.
 ///
-/// Models: serial, threads, processes, ranks, clock_watch, traced, any_executor.
+/// Models: serial, threads, processes, ranks, clock_watch, remembering, forgetting,
+/// traced, any_executor.
 template <class E>
 concept executor = std::copy_constructible<E> &&
     requires(const E& e, std::size_t count, const task_function& task, const run_options& options) {
@@ -79,6 +84,10 @@ namespace detail {
 template <class Executor>
 inline constexpr bool has_network = requires(const Executor& run) {
   run.network();
+};
+template <class Executor>
+inline constexpr bool has_results = requires(const Executor& run) {
+  { run.results() } -> std::convertible_to<std::shared_ptr<run_results>>;
 };
 template <class Executor>
 inline constexpr bool does_once = requires(const Executor& run, const std::function<byte_buffer()>& work) {

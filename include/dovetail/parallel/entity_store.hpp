@@ -7,14 +7,15 @@
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/fields.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
-#include "dovetail/parallel/spool.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace dovetail {
 
@@ -26,18 +27,37 @@ struct kept_value {
   using fields = field_list<&kept_value::key, &kept_value::bytes>;
 };
 
-/// Holds the bytes of finished entities: in a spool, where workers put them themselves and a later run finds
-/// them, or in the memory of the process that started the workers. A forked worker sees what was there at its
-/// fork; one that shares the process must not look while another one keeps. Same key, same bytes.
+/// Where named blobs outlast a process, and workers put them themselves: a `spool`, for example.
+class blob_place {
+public:
+  virtual ~blob_place() = default;
+  /// The blob, if it is there and whole.
+  virtual std::optional<byte_buffer> read(const std::string& name) const = 0;
+  /// Throws `io_error`, for example when the disk is full.
+  virtual void write(const std::string& name, const byte_buffer& blob) const = 0;
+  /// Forgets a blob.
+  virtual void remove(const std::string& name) const = 0;
+  /// The file of a blob, there or not.
+  virtual std::filesystem::path path_of(const std::string& name) const = 0;
+  /// Whether all ranks of a run have this place.
+  virtual bool is_common() const = 0;
+  /// Gives each rank those of the blobs that others have and it has not. Collective.
+  virtual void exchange(const any_communicator& network, const std::vector<std::string>& names) const = 0;
+};
+
+/// Holds the bytes of finished entities: in a place on a disk, where workers put them themselves and a later
+/// run finds them, or in the memory of the process that started the workers. A forked worker sees what was
+/// there at its fork; one that shares the process must not look while another one keeps. Same key, same
+/// bytes.
 class entity_store {
 public:
   entity_store() = default;
   /// `kind` is what its blobs are called.
-  explicit entity_store(std::optional<spool> disk, std::string kind = "piece")
+  explicit entity_store(std::shared_ptr<const blob_place> disk, std::string kind = "result")
       : disk_(std::move(disk)), kind_(std::move(kind)) {}
 
   /// Whether a worker can keep what it makes; otherwise it sends the bytes to the process that started it.
-  bool is_shared() const { return disk_.has_value(); }
+  bool is_shared() const { return disk_ != nullptr; }
 
   /// Whether all ranks have what one has kept. Otherwise each rank releases its own.
   bool is_common() const { return disk_ && disk_->is_common(); }
@@ -45,7 +65,7 @@ public:
   std::optional<std::filesystem::path> place_of_file(const std::string& name) const {
     return disk_ ? std::optional(disk_->path_of(kind_ + "_" + name) += ".part") : std::nullopt;
   }
-  /// Gives each rank those of the entities that others have and its spool has not. Collective.
+  /// Gives each rank those of the entities that others have and its disk has not. Collective.
   void exchange(const any_communicator& network, std::span<const content_key> keys) const;
 
   /// A value that was kept; nothing when it is not there, or its file is damaged.
@@ -81,8 +101,8 @@ public:
 private:
   std::string name_of(content_key key) const { return kind_ + "_" + to_string(key); }
 
-  std::optional<spool> disk_;
-  std::string kind_ = "piece";
+  std::shared_ptr<const blob_place> disk_;
+  std::string kind_ = "result";
   std::unordered_map<content_key, byte_buffer, content_key_hash> memory_;
 };
 

@@ -8,7 +8,6 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/entity_store.hpp"
-#include "dovetail/parallel/spool_exchange.hpp"
 
 #include <optional>
 #include <span>
@@ -25,7 +24,7 @@ DOVETAIL_INLINE void entity_store::exchange(const any_communicator& network,
   std::vector<std::string> names;
   for (const content_key key : keys)
     names.push_back(name_of(key));
-  exchange_blobs(*disk_, network, names);
+  disk_->exchange(network, names);
 }
 
 DOVETAIL_INLINE kept_value entity_store::keep_in_task(content_key key, byte_buffer bytes) {

@@ -1,6 +1,6 @@
 /// @file
 /// Large results of tasks, each made once: a worker keeps what it has made where it can be found again, under
-/// the key of what it is a function of, and gives back a summary. Whoever asks for them names no key.
+/// the name of what it is a function of, and gives back a summary.
 #pragma once
 
 #include "dovetail/core/content_key.hpp"
@@ -8,12 +8,15 @@
 #include "dovetail/core/fields.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
+#include "dovetail/parallel/run_results.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -39,50 +42,54 @@ public:
     using fields = field_list<&receipt::kept, &receipt::summary, &receipt::is_reused>;
   };
 
-  kept_results(std::size_t count, std::shared_ptr<entity_store> store)
-      : store_(std::move(store)), keys_(count) {}
+  /// That many, kept where `run` keeps its results, which are called `kind` there.
+  kept_results(std::size_t count, const any_executor& run, const std::string& kind)
+      : store_(store_of(run, kind)), results_(count) {}
 
   /// Makes result `number(k)` for each k below `count` in a task of `run`, unless it is there: `input(k)` is
-  /// what it is a function of, `key(in)` tells that from others, `make(k, in)` makes it. Returns what
+  /// what it is a function of, `name(in)` tells that from others, `make(k, in)` makes it. Returns what
   /// `map_tasks` does: per k a receipt, with `brief(summary)` for a summary, or why there is none.
-  template <class Number, class Input, class Key, class Make, class Brief>
+  template <class Number, class Input, class Name, class Make, class Brief>
   std::vector<task_result<receipt>> make(std::size_t count, const any_executor& run, const Number& number,
-                                         const Input& input, const Key& key, const Make& make_result,
+                                         const Input& input, const Name& name, const Make& make_result,
                                          const Brief& brief, const run_options& options) {
     auto receipts = map_tasks(
         run, count,
         [&](std::size_t k) {
           const auto in = input(k);
-          receipt made = make_once(key(in), [&] { return make_result(k, in); });
+          const kept<Result> wanted = name(in);
+          receipt made = make_once(wanted.key(), [&] { return make_result(k, in); });
           made.summary = brief(std::move(made.summary));
           return made;
         },
         options);
+    std::vector<content_key> there;
     for (std::size_t k = 0; k < count; ++k)
-      if (auto& made = receipts[k].value)
-        keys_[number(k)] = store_->take(std::exchange(made->kept, {}));
+      if (auto& made = receipts[k].value) {
+        there.push_back(store_->take(std::exchange(made->kept, {})));
+        results_[number(k)] = kept<Result>(there.back());
+      }
+    store_->exchange(run.network(), there);
     return receipts;
   }
 
   /// Throws `io_error` when it is missing or damaged.
-  Result load(std::size_t i) const { return store_->template value<Result>(keys_.at(i)); }
-  /// What it is kept under; 0 where it could not be made.
-  const std::vector<content_key>& keys() const { return keys_; }
-  /// Gives each rank what others have kept, where their stores are not the same. Collective.
-  void exchange(const any_communicator& network) const { store_->exchange(network, keys_); }
+  Result load(std::size_t i) const { return store_->template value<Result>(results_.at(i).key()); }
+  /// Their names; none where one could not be made.
+  const std::vector<kept<Result>>& all() const { return results_; }
 
   /// Whether results can be given up: all ranks have what one has kept.
   bool can_release() const { return store_->is_common(); }
   /// Gives up a result, in a worker; with `note` in its place unless there is none.
   void release(std::size_t i, const std::optional<Note>& note) const {
-    const content_key key = keys_.at(i);
+    const content_key key = results_.at(i).key();
     if (note)
       store_->keep_value(key_of_note(key), released_result{load(i).summary, *note});
     store_->release(key);
   }
   /// The note of a result that was given up.
   std::optional<Note> released(std::size_t i) const {
-    auto found = find_released(keys_.at(i));
+    auto found = find_released(results_.at(i).key());
     return found ? std::optional(std::move(found->note)) : std::nullopt;
   }
 
@@ -106,8 +113,8 @@ private:
 
   /// That of a result which is there, or was until it was given up.
   std::optional<summary_type> find_summary(content_key key) const {
-    if (auto kept = store_->template find_value<Result>(key))
-      return std::move(kept->summary);
+    if (auto whole = store_->template find_value<Result>(key))
+      return std::move(whole->summary);
     if (auto released = can_release() ? find_released(key) : std::nullopt)
       return std::move(released->summary);
     return std::nullopt;
@@ -121,7 +128,7 @@ private:
   static content_key key_of_note(content_key key) { return key_maker(key)(std::int64_t{1}).key(); }
 
   std::shared_ptr<entity_store> store_;
-  std::vector<content_key> keys_;
+  std::vector<kept<Result>> results_;
 };
 
 } // namespace dovetail

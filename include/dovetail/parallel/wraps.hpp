@@ -36,6 +36,8 @@ struct wraps : wrapped_policy<Self, Executor> {
   bool shares_process() const { return wrapped.shares_process(); }
   /// Between the ranks of the wrapped executor.
   any_communicator network() const requires detail::has_network<Executor> { return wrapped.network(); }
+  /// What the wrapped executor keeps.
+  auto results() const requires detail::has_results<Executor> { return wrapped.results(); }
   /// What one of its processes makes for all.
   byte_buffer once(const std::function<byte_buffer()>& work) const requires detail::does_once<Executor> {
     return wrapped.once(work);

@@ -24,7 +24,7 @@ struct background_counts {
   double size_scale = 0;         ///< by which the sizes were enlarged
   std::size_t elements = 0;      ///< of the background mesh
   int stops_by_clock = 0;        ///< stops by a time limit
-  std::optional<int> kept = {};  ///< 1: it was found in the spool
+  std::optional<int> kept = {};  ///< 1: an earlier run has kept it
 
   using fields = field_list<&background_counts::predicted_elements, &background_counts::coarse_scale,
                             &background_counts::size_scale, &background_counts::elements,
@@ -51,7 +51,7 @@ template <int D>
 using background_maker =
     std::function<void(background_result<D>&, const any_sizing& coarse, const any_executor& run_tasks)>;
 
-/// Plans the mesh and makes its background mesh, or finds it in the spool of the options. For one subdomain
+/// Plans the mesh and makes its background mesh, or finds what an earlier run has kept. For one subdomain
 /// the library's own steps make no volume: nothing is decomposed, and its mesh would serve nothing. Throws
 /// what its steps throw, all naming the CAD entity concerned. In the first form by the library's own steps.
 /// About linear in the elements of the background mesh, beside its mesher.

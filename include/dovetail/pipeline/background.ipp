@@ -27,7 +27,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   given.run_tasks = watch;
   const generate_options& options = given.options;
   const erased_sizing size = detail::usable_size<D>(model, given_size, given);
-  if (auto kept = find_background<D>(options.store, model, size, given.run_tasks)) {
+  if (auto kept = find_background<D>(model, size, wanted.run_tasks)) {
     detail::require_room(kept->plan, options);
     return *std::move(kept);
   }
@@ -50,7 +50,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
                                        .elements = result.mesh.elements().elements.size(),
                                        .stops_by_clock = watch.stops()});
   result.summary.seconds = clock.seconds();
-  keep_background(options.store, model, size, result, given.run_tasks);
+  keep_background(model, size, result, wanted.run_tasks);
   return result;
 }
 

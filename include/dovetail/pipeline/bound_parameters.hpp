@@ -8,6 +8,7 @@
 #include "dovetail/mesher/by_regions.hpp"
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/remembering.hpp"
 #include "dovetail/pipeline/parameters.hpp"
 #ifdef DOVETAIL_COMPILED
 #include "dovetail/pipeline/any_parameters.hpp"
@@ -103,6 +104,15 @@ auto bind_parameters(const Given& given) {
 }
 template <int D, bound_parameters<D> Given>
 const Given& bind_parameters(const Given& given) {
+  return given;
+}
+
+/// The same with an executor that keeps what is made through it: as the one given does, else in memory.
+/// \param given parameters that stages take
+template <class Given>
+Given with_memory(Given given) {
+  if (!given.run_tasks.results())
+    given.run_tasks = parallel::remembering(given.run_tasks);
   return given;
 }
 

@@ -41,7 +41,7 @@ suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
 /// What to do about the boundaries of pieces, before these are meshed: in D = 2 nothing. Counts in
 /// `counts` and `seconds`. After a merge most patches are of a skeleton that was searched before.
 template <bound_parameters<3> Parameters>
-suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& store, const Parameters& given,
+suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_memo& known, const Parameters& given,
                                      intersection_counts& counts, double& seconds) {
   const remeshed_patches& patches = made.patches;
   if (!patches.failures.empty())
@@ -57,11 +57,11 @@ suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& st
     }
   auto plan = plan_suppression(
       made.fine, planar, given.run_tasks,
-      known_from_patches(made.fine, patches.first_triangle, patches.keys, store.patches_apart), {},
+      known_from_patches(made.fine, patches.first_triangle, patches.of_patch, known.patches_apart), {},
       given.options.on_progress);
   if (plan.empty() && !made.is_part) {
-    store.patches_apart = patches.keys;
-    sort_unique(store.patches_apart);
+    known.patches_apart = patches.of_patch;
+    sort_unique(known.patches_apart);
   }
   counts.crossings += plan.crossings;
   ++counts.rounds;
@@ -69,7 +69,7 @@ suppression_plan plan_for_boundaries(const realized<3>& made, skeleton_store& st
   return plan;
 }
 template <bound_parameters<2> Parameters>
-suppression_plan plan_for_boundaries(const realized<2>&, skeleton_store&, const Parameters&,
+suppression_plan plan_for_boundaries(const realized<2>&, skeleton_memo&, const Parameters&,
                                      intersection_counts&, double&) {
   return {};
 }
@@ -80,7 +80,7 @@ template <bound_parameters<2> Parameters>
 std::vector<surface_crossing>
 faults_of_failed_pieces(const any_geometry& model, const simplicial_background<2>& mesh,
                         const realized<2>& made, const std::vector<piece_failure>& failures,
-                        const refined_sizing& size, skeleton_store& store, const Parameters& given) try {
+                        const refined_sizing& size, skeleton_memo& known, const Parameters& given) try {
   std::set<local_id> failed;
   for (const piece_failure& failure : failures)
     failed.insert(failure.subdomain);
@@ -90,7 +90,7 @@ faults_of_failed_pieces(const any_geometry& model, const simplicial_background<2
   });
   const auto again = mesh_patches({model, mesh.surface, mesh.surface.mesh.points, of_failed, made.lines, size,
                                    made.material_of_subdomain},
-                                  given.mesh_surface, given.run_tasks, store.patches);
+                                  given.mesh_surface, given.run_tasks, known.patches);
   suppression_plan plan = detail::plan_for_failed_patches(of_failed, again.failures);
   append(plan.surface_crossings, plan.interface_crossings);
   return std::move(plan.surface_crossings);
@@ -101,13 +101,13 @@ faults_of_failed_pieces(const any_geometry& model, const simplicial_background<2
 template <bound_parameters<3> Parameters>
 std::vector<surface_crossing> faults_of_failed_pieces(const any_geometry&, const simplicial_background<3>&,
                                                       const realized<3>&, const std::vector<piece_failure>&,
-                                                      const refined_sizing&, skeleton_store&,
+                                                      const refined_sizing&, skeleton_memo&,
                                                       const Parameters&) {
   return {};
 }
 
 /// What to do about finished pieces, in an order that does not depend on the executor. Loads points and
-/// triangles of all pieces at once, also from a spool: about 32 bytes per triangle with the search's lists,
+/// triangles of all pieces at once, also from a disk: about 32 bytes per triangle with the search's lists,
 /// which is the only step of D = 2 that needs memory for the whole mesh. Nothing is loaded when the model
 /// lies in one plane. O(n log n); on smooth surfaces a small part of the time for meshing them.
 template <bound_parameters<2> Parameters>

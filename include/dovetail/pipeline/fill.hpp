@@ -13,6 +13,7 @@
 #include "dovetail/mesher/preferences.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/remembering.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/erased.hpp"
@@ -93,7 +94,9 @@ filled_surface fill_by(const M& mesh_it, const I& improve, const simplicial_mesh
                        const any_sizing& size, const fill_options& options) {
   const auto mesh = [&](std::size_t count, const piece_source<3>& source, const refined_sizing& sizes,
                         const meshing_options& how) {
-    return mesh_subdomains<3>(count, source, mesh_it, improve, sizes, options.run_regions, how);
+    // Pieces of other sizes are not to be taken for these.
+    return mesh_subdomains<3>(count, source, mesh_it, improve, sizes,
+                              parallel::forgetting(options.run_regions), how);
   };
   return fill_by({dovetail::elements_per_inverse_cubed_size(mesh_it), mesh}, surface, size, options);
 }

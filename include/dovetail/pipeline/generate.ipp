@@ -79,7 +79,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
   Parameters given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
   given.run_tasks = watch;
-  given_up_decompositions<D> given_up(given.run_tasks, given.options.store);
+  given_up_decompositions<D> given_up(given.run_tasks);
   report account; // of decompositions that were given up
   for (int& subdomains = background.plan.subdomains;; subdomains /= 2) {
     if (auto found = given_up.find(background)) {

@@ -3,25 +3,22 @@
 /// that goes on does not begin with one, for its pieces are no more.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/run_results.hpp"
 #include "dovetail/pipeline/background.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace dovetail {
 
-/// Keeps the accounts of decompositions of a background mesh where the run keeps what it makes.
+/// Keeps the accounts of decompositions of a background mesh where a later run finds them.
 template <int D>
 class given_up_decompositions {
 public:
-  given_up_decompositions(const any_executor& run_tasks, const std::optional<spool>& store)
-      : run_tasks_(run_tasks) {
-    if (store)
-      kept_.emplace(store, "given_up");
-  }
+  explicit given_up_decompositions(const any_executor& run_tasks)
+      : run_tasks_(run_tasks), kept_(lasting_store_of(run_tasks, "given_up")) {}
 
   /// The account of the one into as many subdomains as are planned, if it was given up.
   std::optional<report> find(const background_result<D>& background) const {
@@ -36,7 +33,7 @@ public:
   }
 
 private:
-  /// The rest is in the store's identity.
+  /// The rest is in the identity of the run.
   static content_key key_of(const background_result<D>& background) {
     key_maker make;
     make(std::int64_t{D})(std::int64_t{background.plan.subdomains});
@@ -44,7 +41,7 @@ private:
   }
 
   const any_executor& run_tasks_;
-  std::optional<entity_store> kept_;
+  std::shared_ptr<entity_store> kept_;
 };
 
 } // namespace dovetail

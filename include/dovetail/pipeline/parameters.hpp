@@ -10,7 +10,6 @@
 #include "dovetail/mesher/concepts.hpp"
 #include "dovetail/parallel/concepts.hpp"
 #include "dovetail/parallel/serial.hpp"
-#include "dovetail/parallel/spool.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/remesh/concepts.hpp"
@@ -22,7 +21,6 @@
 
 #include <concepts>
 #include <filesystem>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -67,10 +65,6 @@ struct generate_options {
   /// Wall clock per task: an attempt at a subdomain, a batch of lines or of regions; the last resort. What it
   /// stops the summary counts (`stops_by_clock`): the mesh is not repeatable then.
   double limit_seconds = 600;
-  /// Where the background mesh, lines, patches and finished subdomains go; a later run in a spool of the same
-  /// identity, which must hold all that the mesh depends on, takes them from there. None: they stay in
-  /// memory.
-  std::optional<spool> store = std::nullopt;
   std::filesystem::path failure_folder =
       {};                    ///< where facets of failed subdomains are written; empty: nowhere
   progress on_progress = {}; ///< told how the stages come along

@@ -37,12 +37,11 @@ std::vector<double> weights_of_subdomains(const realized<D>& skeleton, std::span
 
 } // namespace detail
 
-/// Meshes all pieces of a realized decomposition that are wanted and the store does not have.
+/// Meshes all pieces of a realized decomposition that are wanted and were not made before.
 template <int D, bound_parameters<D> Parameters>
 meshed_pieces<D> mesh_wanted_pieces(const any_geometry& model, const simplicial_background<D>& mesh,
                                     const realized<D>& skeleton, std::span<const double> weights,
-                                    const refined_sizing& size, const std::shared_ptr<entity_store>& store,
-                                    const Parameters& given) {
+                                    const refined_sizing& size, const Parameters& given) {
   const auto sorted = std::make_shared<const sides_of_subdomains>(
       sort_by_subdomain(skeleton.fine, skeleton.material_of_subdomain.size()));
   // The skeleton itself goes into the finished mesh, and its pieces may be loaded as long as that is.
@@ -53,7 +52,6 @@ meshed_pieces<D> mesh_wanted_pieces(const any_geometry& model, const simplicial_
   };
   options.predicted_cost = detail::weights_of_subdomains(skeleton, weights);
   options.wanted = given.options.only;
-  options.store = store;
   options.on_failure = write_facets_of_failures(given.options.failure_folder);
   options.on_progress = given.options.on_progress;
   const bool own_model = runs_in_threads(given.run_tasks) && !model.thread_safe();

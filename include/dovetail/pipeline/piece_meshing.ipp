@@ -62,7 +62,7 @@ source_of_pieces(const any_geometry& model, const simplicial_background<2>& mesh
                                           return rule->forbids(r, (*numbers)[a], (*numbers)[b]);
                                         }});
     }
-    input.context = rule->key((*regions)[s], lines.skeleton_points);
+    input.context = rule->facts((*regions)[s], lines.skeleton_points);
     input.boundary.boundary = std::move(lines.boundary);
     input.skeleton_points = std::move(lines.skeleton_points);
     input.on_interface = std::move(lines.on_interface);

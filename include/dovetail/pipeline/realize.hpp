@@ -10,7 +10,6 @@
 #include "dovetail/skeleton/line_segments.hpp"
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -57,16 +56,18 @@ struct realized {
   bool is_part = false;     ///< only of the skeleton around some points (`realize_part`)
 };
 
-/// The lines, patches and matching segments made so far, by their keys. After a merge of subdomains most are
-/// as before.
-struct skeleton_store {
-  explicit skeleton_store(const std::shared_ptr<entity_store>& store)
-      : lines(store), patches(store), segments(store) {}
+/// The lines, patches and matching segments made so far. After a merge of subdomains most are as before.
+struct skeleton_memo {
+  /// In memory, as long as this.
+  skeleton_memo() = default;
+  /// Where an executor keeps its results.
+  explicit skeleton_memo(const any_executor& run)
+      : lines(run, "skeleton"), patches{{run, "skeleton"}}, segments(run, "skeleton") {}
 
-  batched_entities<fine_line> lines;      ///< by the keys of lines
-  region_store patches;                   ///< patches by theirs
-  matched_faces segments;                 ///< of lines, for groups of interface faces
-  std::vector<content_key> patches_apart; ///< growing; of a skeleton of which no two triangles cross
+  memo<fine_line> lines;                       ///< of lines
+  region_memo patches;                         ///< of regions and interface faces
+  matched_faces segments;                      ///< of lines, for groups of interface faces
+  std::vector<kept<patch_mesh>> patches_apart; ///< growing; of a skeleton of which no two triangles cross
 };
 
 /// Finds the skeleton of a divided background mesh, of which some parts may have been merged since, into
@@ -86,12 +87,12 @@ struct skeleton_store {
 template <int D, bound_parameters<D> Parameters>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
-                    std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                    std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
                     const Parameters& given);
 template <int D, class Parameters>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
-                    std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                    std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
                     const Parameters& given) {
   return realize<D>(model, mesh, divided, std::move(subdomain_of_element), subdomains, size, made,
                     bind_parameters<D>(given));
@@ -105,7 +106,7 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
 template <bound_parameters<3> Parameters>
 realized<3> realize_part(const any_geometry& model, const simplicial_background<3>& mesh,
                          const divided_background<3>& divided, std::vector<local_id> subdomain_of_element,
-                         std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                         std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
                          const Parameters& given, const std::vector<bool>& is_wanted);
 
 } // namespace dovetail

@@ -24,7 +24,7 @@ namespace detail {
 /// Remeshes the lines of a skeleton.
 template <int D, bound_parameters<D> Parameters>
 void space_lines(const any_geometry& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
-                 const refined_sizing& size, skeleton_store& made, const Parameters& given,
+                 const refined_sizing& size, skeleton_memo& made, const Parameters& given,
                  realized<D>& result) {
   result.lines = number_lines(result.coarse,
                               remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks,
@@ -49,7 +49,7 @@ inline coarse_skeleton skeleton_between(const simplicial_background<3>& mesh,
 /// A skeleton with its lines remeshed.
 template <int D, bound_parameters<D> Parameters>
 realized<D> realize_lines(const any_geometry& model, const simplicial_background<D>& mesh,
-                          coarse_skeleton coarse, const refined_sizing& size, skeleton_store& made,
+                          coarse_skeleton coarse, const refined_sizing& size, skeleton_memo& made,
                           const Parameters& given) {
   const stopwatch clock;
   const std::size_t made_before = made.lines.made();
@@ -68,7 +68,7 @@ template <bound_parameters<2> Parameters>
 realized<2> realize_boundaries(const any_geometry& model, const simplicial_background<2>& mesh,
                                const divided_background<2>& divided, coarse_skeleton coarse,
                                const std::vector<local_id>& subdomain_of_element, std::span<const local_id>,
-                               const refined_sizing& size, skeleton_store& made, const Parameters& given) {
+                               const refined_sizing& size, skeleton_memo& made, const Parameters& given) {
   auto result = realize_lines<2>(model, mesh, std::move(coarse), size, made, given);
   result.fine = skeleton_of_lines(mesh.surface, divided.sides, subdomain_of_element, result.lines);
   result.counts.edges = result.fine.sides.size();
@@ -80,7 +80,7 @@ realized<2> realize_boundaries(const any_geometry& model, const simplicial_backg
 /// small angles than patches that fail: then on the lines as they were.
 template <bound_parameters<3> Parameters>
 skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized<3>& result,
-                                          skeleton_store& made, const Parameters& given) {
+                                          skeleton_memo& made, const Parameters& given) {
   const progress& on_progress = given.options.on_progress;
   const auto fill = [&] {
     return mesh_patches(of, given.mesh_surface, given.run_tasks, made.patches, on_progress);
@@ -114,7 +114,7 @@ template <bound_parameters<3> Parameters>
 realized<3> realize_boundaries(const any_geometry& model, const simplicial_background<3>& mesh,
                                const divided_background<3>&, coarse_skeleton coarse,
                                const std::vector<local_id>&, std::span<const local_id> material_of_subdomain,
-                               const refined_sizing& size, skeleton_store& made, const Parameters& given) {
+                               const refined_sizing& size, skeleton_memo& made, const Parameters& given) {
   const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
   auto result = realize_lines<3>(model, mesh, std::move(coarse), size, made, given);
   const skeleton_to_remesh of{model,        mesh.surface, mesh.points(),        result.coarse,
@@ -139,7 +139,7 @@ template <int D, bound_parameters<D> Parameters>
 realized<D> realize_skeleton(const any_geometry& model, const simplicial_background<D>& mesh,
                              const divided_background<D>& divided, coarse_skeleton coarse,
                              std::vector<local_id> subdomain_of_element, std::size_t subdomains,
-                             const refined_sizing& size, skeleton_store& made, const Parameters& given) {
+                             const refined_sizing& size, skeleton_memo& made, const Parameters& given) {
   const auto materials = materials_of(mesh);
   std::vector<local_id> material_of_subdomain(subdomains, 0);
   for (std::size_t e = 0; e < subdomain_of_element.size(); ++e)
@@ -159,7 +159,7 @@ realized<D> realize_skeleton(const any_geometry& model, const simplicial_backgro
 template <int D, bound_parameters<D> Parameters>
 realized<D> realize(const any_geometry& model, const simplicial_background<D>& mesh,
                     const divided_background<D>& divided, std::vector<local_id> subdomain_of_element,
-                    std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                    std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
                     const Parameters& given) {
   const stopwatch clock;
   auto coarse = detail::skeleton_between(mesh, divided, subdomain_of_element);
@@ -172,7 +172,7 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
 template <bound_parameters<3> Parameters>
 realized<3> realize_part(const any_geometry& model, const simplicial_background<3>& mesh,
                          const divided_background<3>& divided, std::vector<local_id> subdomain_of_element,
-                         std::size_t subdomains, const refined_sizing& size, skeleton_store& made,
+                         std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
                          const Parameters& given, const std::vector<bool>& is_wanted) {
   const stopwatch clock;
   auto coarse =
@@ -188,17 +188,17 @@ realized<3> realize_part(const any_geometry& model, const simplicial_background<
 template realized<2> realize<2>(const any_geometry& model, const simplicial_background<2>& mesh,
                                 const divided_background<2>& divided,
                                 std::vector<local_id> subdomain_of_element, std::size_t subdomains,
-                                const refined_sizing& size, skeleton_store& made,
+                                const refined_sizing& size, skeleton_memo& made,
                                 const any_parameters<2>& given);
 template realized<3> realize<3>(const any_geometry& model, const simplicial_background<3>& mesh,
                                 const divided_background<3>& divided,
                                 std::vector<local_id> subdomain_of_element, std::size_t subdomains,
-                                const refined_sizing& size, skeleton_store& made,
+                                const refined_sizing& size, skeleton_memo& made,
                                 const any_parameters<3>& given);
 template realized<3> realize_part(const any_geometry& model, const simplicial_background<3>& mesh,
                                   const divided_background<3>& divided,
                                   std::vector<local_id> subdomain_of_element, std::size_t subdomains,
-                                  const refined_sizing& size, skeleton_store& made,
+                                  const refined_sizing& size, skeleton_memo& made,
                                   const any_parameters<3>& given, const std::vector<bool>& is_wanted);
 #endif
 

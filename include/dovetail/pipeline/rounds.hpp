@@ -3,11 +3,11 @@
 /// what fails or crosses is repaired and done again, to a fixpoint (paper, sections 3.5, 3.6 and 4).
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
+#include "dovetail/parallel/run_results.hpp"
 #include "dovetail/pipeline/crossings.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/fine_angles.hpp"
@@ -17,7 +17,6 @@
 #include "dovetail/simplification/angles_of_rule.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -36,13 +35,12 @@ public:
                        const divided_background<D>& divided, const any_sizing& size, const Parameters& given,
                        report account = {})
       : model_(model), mesh_(mesh), divided_(divided),
-        given_(given), state_{.subdomain_of_element = divided.pieces.part_of_element,
-                              .merges = {divided.pieces.parts, given.options.largest_merged_fraction},
-                              .size = size},
-        repartition_(mesh, divided, given.options.repartition_locally),
-        made_(std::make_shared<entity_store>(given.options.store, "skeleton")),
-        pieces_(std::make_shared<entity_store>(given.options.store)), account_(std::move(account)),
-        counts_(account_.as<intersection_counts>()) {
+        given_(with_memory(given)), state_{.subdomain_of_element = divided.pieces.part_of_element,
+                                           .merges = {divided.pieces.parts,
+                                                      given.options.largest_merged_fraction},
+                                           .size = size},
+        repartition_(mesh, divided, given.options.repartition_locally), made_(given_.run_tasks),
+        account_(std::move(account)), counts_(account_.as<intersection_counts>()) {
     account_.name = "intersection";
   }
 
@@ -69,12 +67,10 @@ public:
   /// The interface angles of what was last realized as a whole.
   interface_angles take_fine_angles() { return std::move(angles_); }
 
-  /// For a decomposition that is not gone on with: its finished pieces are removed from the store. Returns
-  /// the account, with what was told as warnings.
+  /// For a decomposition that is not gone on with: its finished pieces are not kept. Returns the account,
+  /// with what was told as warnings.
   report give_up() {
-    if (given_.run_tasks.leads() || !pieces_->is_common())
-      for (const content_key key : finished_)
-        pieces_->release(key);
+    forget(given_.run_tasks, name_of_pieces, finished_);
     report account = intersection();
     append(account.warnings, state_.warnings);
     return account;
@@ -102,8 +98,8 @@ public:
   std::optional<std::pair<realized<D>, meshed_pieces<D>>> mesh_pieces() {
     while (auto made = realize_boundaries()) {
       require_wanted();
-      auto meshed = mesh_wanted_pieces(model_, mesh_, *made, divided_.weights, state_.size, pieces_, given_);
-      finished_.insert(meshed.keys.begin(), meshed.keys.end());
+      auto meshed = mesh_wanted_pieces(model_, mesh_, *made, divided_.weights, state_.size, given_);
+      finished_.insert(meshed.finished.begin(), meshed.finished.end());
       const auto refine = [&] { return refine_faults(faults_of(*made, meshed), state_); };
       const auto merge = [&] { return merge_failures<D>(made->fine, meshed.failures, state_); };
       const auto uncross = [&] {
@@ -209,10 +205,9 @@ private:
   decomposition_state state_;
   repartition_rounds<D> repartition_;
   interface_angles angles_; ///< of what was last realized as a whole
-  skeleton_store made_;
-  std::shared_ptr<entity_store> pieces_;
-  std::set<content_key> finished_; ///< pieces, of all rounds
-  report account_;                 ///< of decompositions before and of this one
+  skeleton_memo made_;
+  std::set<kept<finished_piece<D>>> finished_; ///< of all rounds
+  report account_;                             ///< of decompositions before and of this one
   intersection_counts counts_;
   double skeleton_seconds_ = 0;
   std::string too_many_merges_;

@@ -8,14 +8,14 @@
 #pragma once
 
 #include "dovetail/core/compressed_rows.hpp"
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/policy.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/batched_entities.hpp"
+#include "dovetail/parallel/kept.hpp"
+#include "dovetail/parallel/memo.hpp"
 #include "dovetail/remesh/concepts.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/remesh/surface_region.hpp"
@@ -25,7 +25,6 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <memory>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -114,17 +113,17 @@ struct region_set {
   std::function<surface_region(const any_geometry&, std::size_t)> build;
   /// The surface of a region, from a model of the worker's own.
   std::function<any_surface(const any_geometry&, std::size_t)> surface_of;
-  /// For regions on no face: what their surface, and with it the parameters of their boundary, is a function
-  /// of beside the boundary's points; the default for regions on a face. Empty where all are.
-  std::vector<content_key> surface_keys = {};
+  /// For regions on no face: the points that their surface, and with it the parameters of their boundary, is
+  /// a function of beside the boundary's points; none for regions on a face. Empty where all are.
+  std::function<std::vector<vec3>(std::size_t)> surface_points = {};
   /// The boundary of a region on no face, which may lack its parameters; where there is none, `build` tells.
   std::function<patch_boundary(std::size_t)> outline_of = {};
   /// Edges that a region must not have since another one has them; `mesh_regions` adds to them.
   std::map<std::size_t, std::vector<simplex<1>>> forbidden_edges = {};
 
-  /// Whether the key of a region's surface tells its parameters.
-  bool has_surface_key(std::size_t r) const {
-    return r < surface_keys.size() && surface_keys[r] != content_key{};
+  /// The points that tell a region's surface and parameters; none where these are not known.
+  std::vector<vec3> points_of_surface(std::size_t r) const {
+    return surface_points ? surface_points(r) : std::vector<vec3>{};
   }
   /// A region with its boundary and the edges it must not have.
   surface_region region(const any_geometry& own, std::size_t r) const {
@@ -132,7 +131,7 @@ struct region_set {
   }
   /// The same, perhaps without its parameters.
   surface_region outline(const any_geometry& own, std::size_t r) const {
-    if (!outline_of || !has_surface_key(r))
+    if (!outline_of || points_of_surface(r).empty())
       return region(own, r);
     surface_region built;
     built.boundary = outline_of(r);
@@ -147,9 +146,9 @@ private:
   }
 };
 
-/// Meshes of regions by their keys, and what is asked of them so often that it is not read from them again.
-struct region_store {
-  /// A mesh that is in the store, in numbers.
+/// Meshes of regions, each made once, and what is asked of them so often that it is not read from them again.
+struct region_memo {
+  /// A mesh that was made, in numbers.
   struct known_mesh {
     std::size_t inner_points = 0, triangles = 0; ///< points inside its boundary, and all triangles
     bool is_faulty = false;              ///< folded over, or no mesh at all as its boundary crosses itself
@@ -158,43 +157,39 @@ struct region_store {
     std::vector<simplex<1>> chords = {}; ///< by the numbers of points in the region's boundary
   };
 
-  std::shared_ptr<entity_store> entities; ///< where the meshes are kept
-  batched_entities<patch_mesh> meshes;    ///< by their keys
-  /// What is known of the meshes that were asked for.
-  std::unordered_map<content_key, known_mesh, content_key_hash> known = {};
-
-  explicit region_store(std::shared_ptr<entity_store> store) : entities(std::move(store)), meshes(entities) {}
+  memo<patch_mesh> meshes = {};                                           ///< all that were made
+  std::unordered_map<kept<patch_mesh>, known_mesh, kept_hash> known = {}; ///< those that were asked for
 };
 
-/// Meshes of a `region_set`, in a store.
+/// Meshes of a `region_set`.
 struct meshed_regions {
-  std::vector<content_key> keys = {};               ///< of the meshes
+  std::vector<kept<patch_mesh>> of_region = {};     ///< the names of the meshes
   std::map<std::size_t, std::string> failures = {}; ///< the regions without a mesh, and why
   compressed_rows<local_id> labels = {};            ///< of each region's boundary points
 
   /// Calls `use(region, mesh)` for each mesh in turn; only a few are in memory.
   template <class Use>
-  void for_each(const region_store& store, const Use& use) const {
+  void for_each(const region_memo& made, const Use& use) const {
     for_each(
-        store, [](std::size_t) { return true; }, use);
+        made, [](std::size_t) { return true; }, use);
   }
   /// The same for the regions from `begin` to before `end`.
   template <class Use>
-  void for_each(const region_store& store, std::size_t begin, std::size_t end, const Use& use) const {
+  void for_each(const region_memo& made, std::size_t begin, std::size_t end, const Use& use) const {
     for_each(
-        store, [=](std::size_t r) { return r >= begin && r < end; }, use);
+        made, [=](std::size_t r) { return r >= begin && r < end; }, use);
   }
   /// The same for the regions that are `wanted(region)`.
   template <class Wanted, class Use>
-  void for_each(const region_store& store, const Wanted& wanted, const Use& use) const {
+  void for_each(const region_memo& made, const Wanted& wanted, const Use& use) const {
     std::vector<std::size_t> regions;
-    std::vector<content_key> there;
-    for (std::size_t r = 0; r < keys.size(); ++r)
+    std::vector<kept<patch_mesh>> there;
+    for (std::size_t r = 0; r < of_region.size(); ++r)
       if (!failures.contains(r) && wanted(r)) {
         regions.push_back(r);
-        there.push_back(keys[r]);
+        there.push_back(of_region[r]);
       }
-    store.meshes.for_each(there, [&](std::size_t i, const patch_mesh& mesh) { use(regions[i], mesh); });
+    made.meshes.for_each(there, [&](std::size_t i, const patch_mesh& mesh) { use(regions[i], mesh); });
   }
 };
 
@@ -216,15 +211,15 @@ using region_mesher = std::function<patch_mesh(const any_surface&, const surface
 
 /// `mesh_regions` by such a function.
 meshed_regions make_regions(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
-                            const refined_sizing& size, const any_executor& run, region_store& store,
+                            const refined_sizing& size, const any_executor& run, region_memo& made,
                             const mesh_regions_options& options);
 
 } // namespace detail
 
-/// Makes the meshes that are not in `store`, through the executor; then, while two regions have an inner edge
+/// Makes the meshes that are not in `made`, through the executor; then, while two regions have an inner edge
 /// between the same boundary points, or one where another's line is, forbids it to all but the first and
 /// makes those again (`set.forbidden_edges` tell). A mesh is a function of its region, of the sizes near it,
-/// of the model and the mesher; these two and the plain sizes must be the same for all calls with a store. A
+/// of the model and the mesher; these two and the plain sizes must be the same for all calls with one memo. A
 /// region that fails keeps none of the others from being made. Throws `usage_error` when the mesher may not
 /// run in the threads of `run`.
 /// Complexity: that of the surface mesher, once per region and attempt.
@@ -233,11 +228,11 @@ meshed_regions make_regions(const any_geometry& model, region_set& set, const re
 /// \param mesher meshes a region in its parameter plane
 /// \param size edge lengths wanted, in the units of the model
 /// \param run carries out independent tasks; the result does not depend on it
-/// \param store meshes of earlier calls; grows
+/// \param made meshes of earlier calls; grows
 /// \param options attempts and progress
 template <surface_mesher Mesher>
 meshed_regions mesh_regions(const any_geometry& model, region_set& set, const Mesher& mesher,
-                            const refined_sizing& size, const any_executor& run, region_store& store,
+                            const refined_sizing& size, const any_executor& run, region_memo& made,
                             const mesh_regions_options& options) {
   if (runs_in_threads(run) && !may_run_in_threads(mesher))
     throw usage_error(
@@ -246,7 +241,7 @@ meshed_regions mesh_regions(const any_geometry& model, region_set& set, const Me
                            const any_sizing& sizes) {
     return mesh_region(mesher, surface, region, sizes, options.attempts);
   };
-  return detail::make_regions(model, set, mesh_it, size, run, store, options);
+  return detail::make_regions(model, set, mesh_it, size, run, made, options);
 }
 
 /// Calls `visit(triangle, own)` for a region's triangles: oriented along the face, named by labels and, from

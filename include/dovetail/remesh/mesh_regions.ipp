@@ -115,13 +115,12 @@ inline double least_corner_angle(const patch_boundary& boundary, const patch_mes
 class region_making {
 public:
   region_making(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
-                const refined_sizing& size, const any_executor& run, region_store& store,
+                const refined_sizing& size, const any_executor& run, region_memo& made,
                 const mesh_regions_options& options)
-      : model_(model), set_(set), mesh_it_(mesh_it), size_(size), run_(run), store_(store),
-        options_(options) {
+      : model_(model), set_(set), mesh_it_(mesh_it), size_(size), run_(run), made_(made), options_(options) {
     for (std::size_t r = 0; r < set.count; ++r) {
       const surface_region region = outline(r);
-      result_.keys.push_back(key_of(r, region));
+      result_.of_region.push_back(kept_mesh(r, region));
       append_row(result_.labels, region.boundary.labels);
       append_row(segments_, region.boundary.segments);
       faces_.push_back(region.face);
@@ -143,7 +142,7 @@ private:
     rows.begins.push_back(rows.items.size());
   }
 
-  /// What the key of a region is made of.
+  /// What the mesh of a region is a function of.
   surface_region outline(std::size_t r) const {
     return size_.is_refined() ? set_.region(model_, r) : set_.outline(model_, r);
   }
@@ -154,7 +153,7 @@ private:
 
   /// Labels are numbers of the present set; what counts of them is which points have the same one (poles),
   /// and which edges are forbidden.
-  content_key key_of(std::size_t r, const surface_region& region) const {
+  kept<patch_mesh> kept_mesh(std::size_t r, const surface_region& region) const {
     const patch_boundary& b = region.boundary;
     std::vector<std::pair<local_id, local_id>> by_label; // with the place
     for (std::size_t v = 0; v < b.labels.size(); ++v)
@@ -175,15 +174,11 @@ private:
     for (const auto& [x, y] : b.forbidden_edges)
       if (const local_id at_x = first_with(x), at_y = first_with(y); at_x != no_id && at_y != no_id)
         forbidden.push_back({at_x, at_y});
-    key_maker make(size_.key_near(place(model_, r, b)));
-    make(std::int64_t{region.face})(region.size_factor)(std::int64_t{options_.attempts.folds})(
-        std::int64_t{options_.parameters})(std::int64_t{options_.deviation})(std::int64_t{options_.angles});
-    if (set_.has_surface_key(r))
-      make(static_cast<std::int64_t>(set_.surface_keys[r].value));
-    else
-      make(b.uv);
-    make(b.points)(same_label)(b.segments)(forbidden);
-    return make.key();
+    const std::vector<vec3> surface = set_.points_of_surface(r);
+    return kept<patch_mesh>::of(region.face, region.size_factor, options_.attempts.folds, options_.parameters,
+                                options_.deviation, options_.angles, surface,
+                                surface.empty() ? b.uv : std::vector<vec2>{}, b.points, same_label,
+                                b.segments, forbidden, size_.balls_near(place(model_, r, b)));
   }
 
   /// In tasks of many regions.
@@ -195,31 +190,31 @@ private:
         regions.push_back(r);
         costs.push_back(costs_[r]);
       }
-    std::vector<content_key> keys;
+    std::vector<kept<patch_mesh>> wanted;
     for (const std::size_t r : regions)
-      keys.push_back(result_.keys[r]);
-    const auto failures = store_.meshes.make_missing(
-        keys, costs, options_.triangles_per_task,
-        [&](const std::vector<std::size_t>& wanted) {
+      wanted.push_back(result_.of_region[r]);
+    const auto failures = made_.meshes.make_missing(
+        wanted, costs, options_.triangles_per_task,
+        [&](const std::vector<std::size_t>& missing) {
           const task_model own(model_, run_);
           std::vector<patch_mesh> meshes;
-          for (const std::size_t i : wanted)
+          for (const std::size_t i : missing)
             meshes.push_back(make(own.get(), regions[i]));
           return meshes;
         },
         run_, run_options{.on_progress = options_.on_progress, .stage = options_.stage});
-    for (const entity_failure& failure : failures)
-      result_.failures[regions[failure.entity]] = failure.reason;
+    for (const memo_failure& failure : failures)
+      result_.failures[regions[failure.number]] = failure.reason;
     note_meshes();
   }
 
   /// Reads the meshes that were not read before.
   void note_meshes() {
     result_.for_each(
-        store_, [&](std::size_t r) { return !store_.known.contains(result_.keys[r]); },
+        made_, [&](std::size_t r) { return !made_.known.contains(result_.of_region[r]); },
         [&](std::size_t r, const patch_mesh& mesh) {
           const auto labels = std::as_const(result_.labels)[r];
-          store_.known[result_.keys[r]] = {
+          made_.known[result_.of_region[r]] = {
               mesh.inner_points.size(),
               mesh.triangles.size(),
               !mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty(),
@@ -256,7 +251,7 @@ private:
     std::vector<std::pair<simplex<1>, std::size_t>> chords; // with the region
     for (std::size_t r = 0; r < set_.count; ++r)
       if (!result_.failures.contains(r))
-        for (const simplex<1>& chord : store_.known.at(result_.keys[r]).chords)
+        for (const simplex<1>& chord : made_.known.at(result_.of_region[r]).chords)
           chords.emplace_back(labelled(r, chord), r);
     if (chords.empty())
       return false;
@@ -271,7 +266,7 @@ private:
         changed.insert(r);
     }
     for (const std::size_t r : changed)
-      result_.keys[r] = key_of(r, outline(r));
+      result_.of_region[r] = kept_mesh(r, outline(r));
     return !changed.empty();
   }
 
@@ -326,7 +321,7 @@ private:
   const region_mesher& mesh_it_;
   const refined_sizing& size_;
   const any_executor& run_;
-  region_store& store_;
+  region_memo& made_;
   const mesh_regions_options& options_;
   std::vector<double> costs_;
   compressed_rows<simplex<1>> segments_; ///< of each region's boundary
@@ -336,9 +331,9 @@ private:
 
 DOVETAIL_INLINE meshed_regions make_regions(const any_geometry& model, region_set& set,
                                             const region_mesher& mesh_it, const refined_sizing& size,
-                                            const any_executor& run, region_store& store,
+                                            const any_executor& run, region_memo& made,
                                             const mesh_regions_options& options) {
-  return region_making(model, set, mesh_it, size, run, store, options).run();
+  return region_making(model, set, mesh_it, size, run, made, options).run();
 }
 
 } // namespace detail

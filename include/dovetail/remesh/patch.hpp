@@ -27,6 +27,9 @@ struct patch_boundary {
   /// Pairs of labels that no inner edge may join, because another patch already joins them by an edge that is
   /// not on the boundary.
   std::vector<std::array<local_id, 2>> forbidden_edges = {};
+
+  using fields = field_list<&patch_boundary::uv, &patch_boundary::points, &patch_boundary::labels,
+                            &patch_boundary::segments, &patch_boundary::forbidden_edges>;
 };
 
 /// About how many triangles there are in a patch: as many as in a disk.

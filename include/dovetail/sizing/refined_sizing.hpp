@@ -4,7 +4,6 @@
 
 #include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/bytes.hpp"
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 
 #include <concepts>
@@ -15,8 +14,8 @@
 namespace dovetail {
 
 /// A field, and balls that were added to it. Each entity (line, patch, piece) gets the field with the balls
-/// in reach of the box that it lies in, and has these in its key: what a refinement does not reach keeps its
-/// key and its bytes. A ball reaches to where, grown, it asks for what the field does at its center.
+/// in reach of the box that it lies in, and is a function of these: what a refinement does not reach stays as
+/// it is. A ball reaches to where, grown, it asks for what the field does at its center.
 class refined_sizing {
 public:
   template <class H>
@@ -30,7 +29,7 @@ public:
 
   /// All that a run adds to the plain field, for another process that has that one: the balls.
   void encode(byte_writer& to) const { to.array(balls_); }
-  /// The same field with the same keys. Throws `input_error` when the data end early.
+  /// The same field. Throws `input_error` when the data end early.
   static refined_sizing decode(any_sizing plain, byte_reader& from) {
     refined_sizing field(std::move(plain));
     field.refine(from.array<size_ball>());
@@ -39,18 +38,14 @@ public:
 
   /// The field for an entity.
   any_sizing near(const box3& entity) const { return within_bounds(plain_, balls_near(entity), growth); }
-  /// The field with all balls: for what looks at many places and keeps nothing under a key.
+  /// The field with all balls: for what looks at many places, and is made again whenever one is added.
   any_sizing everywhere() const { return within_bounds(plain_, balls_, growth); }
-  /// The key of the field near an entity, given that the plain one is always the same. O(log n + balls near).
-  content_key key_near(const box3& entity) const {
-    const std::vector<size_ball> balls = balls_near(entity);
-    return balls.empty() ? content_key{} : key_maker{}(balls).key();
-  }
+  /// What tells the field near an entity from the plain one: the balls in reach, in the order in which they
+  /// were added. O(log n + balls near).
+  std::vector<size_ball> balls_near(const box3& entity) const;
 
 private:
   static constexpr double growth = 0.3;
-
-  std::vector<size_ball> balls_near(const box3& entity) const;
 
   any_sizing plain_;
   std::vector<size_ball> balls_; ///< in the order in which they were added

@@ -2,7 +2,7 @@
 /// Numbers of segments that lines are given in place of those which the sizing field asks for.
 #pragma once
 
-#include "dovetail/parallel/batched_entities.hpp"
+#include "dovetail/parallel/memo.hpp"
 
 #include <array>
 #include <compare>
@@ -19,7 +19,7 @@ struct line_segments {
 };
 /// Of the lines of a face.
 using face_segments = std::array<line_segments, 3>;
-/// Those found for faces that were tried in turn, by the keys of all of these.
-using matched_faces = batched_entities<std::vector<face_segments>>;
+/// Those found for faces that were tried in turn.
+using matched_faces = memo<std::vector<face_segments>>;
 
 } // namespace dovetail

@@ -2,7 +2,6 @@
 /// The fine skeleton of D = 2: the edges of the remeshed lines, with the subsurfaces beside them.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
@@ -41,9 +40,9 @@ public:
   /// Whether a region must not have the chord between two points.
   bool forbids(local_id region, local_id a, local_id b) const;
 
-  /// Of all that the answers for some regions and the points on their boundaries depend on. `points` are
+  /// All that the answers for some regions and the points on their boundaries depend on. `points` are
   /// growing. The numbers of regions and points elsewhere are no part of it, since a merge changes these.
-  content_key key(std::span<const local_id> regions, std::span<const local_id> points) const;
+  std::vector<std::int64_t> facts(std::span<const local_id> regions, std::span<const local_id> points) const;
 
 private:
   /// Whether a region may have chords that another one must not have then.

@@ -108,19 +108,21 @@ DOVETAIL_INLINE bool chord_rule::forbids(local_id region, local_id a, local_id b
          std::binary_search(edges_.begin(), edges_.end(), sorted_vertices(simplex<1>{a, b}));
 }
 
-DOVETAIL_INLINE content_key chord_rule::key(std::span<const local_id> regions,
-                                            std::span<const local_id> points) const {
-  key_maker make;
-  for (const local_id region : regions)
-    make(earlier_regions(region, points));
-  std::vector<std::array<std::int64_t, 2>> edges; // of lines, by their places in `points`
-  for (std::size_t i = 0; i < points.size(); ++i)
+DOVETAIL_INLINE std::vector<std::int64_t> chord_rule::facts(std::span<const local_id> regions,
+                                                            std::span<const local_id> points) const {
+  std::vector<std::int64_t> facts;
+  for (const local_id region : regions) {
+    const auto earlier = earlier_regions(region, points);
+    facts.push_back(static_cast<std::int64_t>(earlier.size()));
+    append(facts, earlier);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) // edges of lines, by their places in `points`
     for (auto edge = std::lower_bound(edges_.begin(), edges_.end(), simplex<1>{points[i], 0});
          edge != edges_.end() && (*edge)[0] == points[i]; ++edge)
       if (const auto at = std::lower_bound(points.begin(), points.end(), (*edge)[1]);
           at != points.end() && *at == (*edge)[1])
-        edges.push_back({static_cast<std::int64_t>(i), at - points.begin()});
-  return make(edges).key();
+        append(facts, std::array{static_cast<std::int64_t>(i), at - points.begin()});
+  return facts;
 }
 
 DOVETAIL_INLINE std::vector<std::int64_t>

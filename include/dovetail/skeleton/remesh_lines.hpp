@@ -1,14 +1,15 @@
 /// @file
 /// Points on skeleton lines, spaced by the sizing field: on the CAD curve, projected to the CAD face, or
-/// straight (paper, section 3.5). A line's points are a function of its key, the model and the field alone.
+/// straight (paper, section 3.5). A line's points are a function of the line, the model and the field
+/// alone.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/batched_entities.hpp"
+#include "dovetail/parallel/kept.hpp"
+#include "dovetail/parallel/memo.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
@@ -30,9 +31,9 @@ fine_line remesh_line(const any_geometry& model, const skeleton_line& line,
 /// The box in which a line looks for refined sizes.
 box3 place_of(const skeleton_line& line, std::span<const vec3> coarse_points);
 
-/// The key of a line: all that its points are a function of but the model and the plain sizes.
-content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_points,
-                   const refined_sizing& size);
+/// The points of a line, which are a function of it, its ends and what refines the sizes near it.
+kept<fine_line> kept_line(const skeleton_line& line, std::span<const vec3> coarse_points,
+                          const refined_sizing& size);
 
 /// Points of all lines; those that are not in `made` are made through `run`.
 /// Throws `mesher_error` naming what could not be evaluated.
@@ -42,11 +43,11 @@ content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_point
 /// \param coarse_points points of the background mesh, that lines refer to
 /// \param size edge lengths wanted, in the units of the model
 /// \param run carries out independent tasks; the result does not depend on it
-/// \param made lines of earlier rounds, by their keys; grows
+/// \param made lines of earlier rounds; grows
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
 std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
                                     std::span<const vec3> coarse_points, const refined_sizing& size,
-                                    const any_executor& run, batched_entities<fine_line>& made,
+                                    const any_executor& run, memo<fine_line>& made,
                                     const progress& on_progress = {});
 
 } // namespace dovetail

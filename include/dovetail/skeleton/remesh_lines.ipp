@@ -12,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -120,32 +119,29 @@ DOVETAIL_INLINE box3 place_of(const skeleton_line& line, std::span<const vec3> c
   return roomy_box_around(ends);
 }
 
-DOVETAIL_INLINE content_key key_of(const skeleton_line& line, std::span<const vec3> coarse_points,
-                                   const refined_sizing& size) {
-  key_maker make(size.key_near(place_of(line, coarse_points)));
-  make(std::int64_t{line.on.dimension})(std::int64_t{line.on.id})(std::int64_t{line.segments})(line.bias);
-  for (std::size_t end = 0; end < 2; ++end) {
-    const vec3 p = coarse_points[line.vertices[end]];
-    make(p.x)(p.y)(p.z)(line.t[end])(line.uv[end].x)(line.uv[end].y);
-  }
-  return make.key();
+DOVETAIL_INLINE kept<fine_line> kept_line(const skeleton_line& line, std::span<const vec3> coarse_points,
+                                          const refined_sizing& size) {
+  const std::array ends{coarse_points[line.vertices[0]], coarse_points[line.vertices[1]]};
+  return kept<fine_line>::of(line.on, line.t, line.uv, line.segments, line.bias, ends,
+                             size.balls_near(place_of(line, coarse_points)));
 }
 
-DOVETAIL_INLINE std::vector<fine_line>
-remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
-             std::span<const vec3> coarse_points, const refined_sizing& size, const any_executor& run,
-             batched_entities<fine_line>& made, const progress& on_progress) {
+DOVETAIL_INLINE std::vector<fine_line> remesh_lines(const any_geometry& model,
+                                                    std::span<const skeleton_line> lines,
+                                                    std::span<const vec3> coarse_points,
+                                                    const refined_sizing& size, const any_executor& run,
+                                                    memo<fine_line>& made, const progress& on_progress) {
   constexpr double lines_per_task = 256;
-  std::vector<content_key> keys;
+  std::vector<kept<fine_line>> wanted;
   for (const skeleton_line& line : lines)
-    keys.push_back(key_of(line, coarse_points, size));
+    wanted.push_back(kept_line(line, coarse_points, size));
   const std::vector<double> costs(lines.size(), 1);
   const auto failures = made.make_missing(
-      keys, costs, lines_per_task,
-      [&](const std::vector<std::size_t>& wanted) {
+      wanted, costs, lines_per_task,
+      [&](const std::vector<std::size_t>& missing) {
         const task_model own(model, run);
         std::vector<fine_line> fine;
-        for (const std::size_t l : wanted)
+        for (const std::size_t l : missing)
           fine.push_back(
               remesh_line(own.get(), lines[l], coarse_points, size.near(place_of(lines[l], coarse_points))));
         return fine;
@@ -154,7 +150,7 @@ remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
   if (!failures.empty())
     throw mesher_error("remeshing of skeleton lines failed: " + failures.front().reason);
   std::vector<fine_line> fine(lines.size());
-  made.for_each(keys, [&](std::size_t l, const fine_line& line) { fine[l] = line; });
+  made.for_each(wanted, [&](std::size_t l, const fine_line& line) { fine[l] = line; });
   return fine;
 }
 

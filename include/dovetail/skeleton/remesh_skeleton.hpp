@@ -3,14 +3,13 @@
 /// through the executor (paper, section 3.5); then puts all together.
 #pragma once
 
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,10 +29,10 @@ struct patch_failure {
 
 /// The patches of a fine skeleton; the regions come first and the interface faces behind them.
 struct remeshed_patches {
-  std::vector<local_id> first_triangle; ///< of each patch, in the skeleton; and the end
-  local_id line_points = 0;             ///< of the skeleton: the first ones
-  std::vector<content_key> keys;        ///< by patch: what it is a function of
-  std::vector<patch_failure> failures;  ///< the skeleton is incomplete when there are any
+  std::vector<local_id> first_triangle;   ///< of each patch, in the skeleton; and the end
+  local_id line_points = 0;               ///< of the skeleton: the first ones
+  std::vector<kept<patch_mesh>> of_patch; ///< the names of their meshes
+  std::vector<patch_failure> failures;    ///< the skeleton is incomplete when there are any
 };
 
 /// What is counted of the patches of a skeleton.
@@ -67,11 +66,11 @@ struct skeleton_to_remesh {
   std::span<const local_id> material_of_subdomain; ///< by subdomain
 };
 
-/// The patches of a skeleton before they are put together; they lie in the store that they were made with.
+/// The patches of a skeleton before they are put together; they lie where they were made.
 struct skeleton_patches {
   meshed_regions meshes;               ///< regions first, then interface faces
   std::vector<patch_failure> failures; ///< those that could not be remeshed
-  std::size_t made = 0;                ///< that were not in the store
+  std::size_t made = 0;                ///< the others were made before
 };
 
 namespace detail {
@@ -80,7 +79,7 @@ namespace detail {
 skeleton_patches
 mesh_patches_by(const skeleton_to_remesh& of,
                 const std::function<meshed_regions(region_set&, const mesh_regions_options&)>& mesh_them,
-                region_store& made, const progress& on_progress);
+                region_memo& made, const progress& on_progress);
 
 } // namespace detail
 
@@ -90,11 +89,11 @@ mesh_patches_by(const skeleton_to_remesh& of,
 /// \param of the coarse skeleton with its remeshed lines
 /// \param mesher meshes regions and interface faces between lines
 /// \param run carries out independent tasks; the result does not depend on it
-/// \param made patches of earlier rounds, by their keys; grows
+/// \param made patches of earlier rounds; grows
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
 template <surface_mesher Mesher>
 skeleton_patches mesh_patches(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
-                              region_store& made, const progress& on_progress = {}) {
+                              region_memo& made, const progress& on_progress = {}) {
   const auto mesh_them = [&](region_set& set, const mesh_regions_options& options) {
     return mesh_regions(of.model, set, mesher, of.size, run, made, options);
   };
@@ -103,19 +102,19 @@ skeleton_patches mesh_patches(const skeleton_to_remesh& of, const Mesher& mesher
 
 /// The interface faces with an angle below a threshold, growing.
 std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
-                                              const coarse_skeleton& skeleton, const region_store& made,
+                                              const coarse_skeleton& skeleton, const region_memo& made,
                                               double threshold_deg);
 
-/// Puts patches together. The result is on all ranks, in memory that they share where they have one spool.
+/// Puts patches together. The result is on all ranks, in memory that they share where they can.
 /// Linear.
 /// Throws nothing but for a lack of memory.
 /// \param of the coarse skeleton with its remeshed lines
 /// \param patches from `mesh_patches`
 /// \param run tells all ranks
-/// \param made the store that patches lie in
+/// \param made what `mesh_patches` has made
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
 remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches,
-                               const any_executor& run, const region_store& made,
+                               const any_executor& run, const region_memo& made,
                                const progress& on_progress = {});
 
 /// `mesh_patches` and `join_patches`.
@@ -124,11 +123,11 @@ remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches pa
 /// \param of the coarse skeleton with its remeshed lines
 /// \param mesher meshes regions and interface faces between lines
 /// \param run carries out independent tasks; the result does not depend on it
-/// \param made patches of earlier rounds, by their keys; grows
+/// \param made patches of earlier rounds; grows
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
 template <surface_mesher Mesher>
 remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
-                                  region_store& made, const progress& on_progress = {}) {
+                                  region_memo& made, const progress& on_progress = {}) {
   return join_patches(of, mesh_patches(of, mesher, run, made, on_progress), run, made, on_progress);
 }
 

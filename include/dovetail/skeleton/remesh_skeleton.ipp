@@ -39,13 +39,13 @@ public:
       return is_region(p) ? surface_of_face(own, skeleton_.regions[p].cad_face)
                           : any_surface::holding(interface_patch(face_of(p), coarse_points_, lines_).surface);
     };
-    set.surface_keys.resize(skeleton_.regions.size());
-    for (const skeleton_face& face : skeleton_.faces) {
+    set.surface_points = [this](std::size_t p) {
       std::vector<vec3> corners;
-      for (const local_id v : key_order(face))
-        corners.push_back(coarse_points_[v]);
-      set.surface_keys.push_back(key_maker{}(corners).key());
-    }
+      if (!is_region(p))
+        for (const local_id v : key_order(face_of(p)))
+          corners.push_back(coarse_points_[v]);
+      return corners;
+    };
     set.outline_of = [this](std::size_t p) { return interface_outline(face_of(p), lines_); };
     return set;
   }
@@ -124,7 +124,7 @@ private:
 DOVETAIL_INLINE skeleton_patches
 mesh_patches_by(const skeleton_to_remesh& of,
                 const std::function<meshed_regions(region_set&, const mesh_regions_options&)>& mesh_them,
-                region_store& made, const progress& on_progress) {
+                region_memo& made, const progress& on_progress) {
   const std::size_t made_before = made.meshes.made();
   const skeleton_parts parts(of);
   region_set set = parts.patches();
@@ -139,7 +139,7 @@ mesh_patches_by(const skeleton_to_remesh& of,
     throw mesher_error("remeshing of " + parts.name_of(patch) + " failed: " + reason);
   }
   result.meshes.for_each(
-      made, [&](std::size_t p) { return made.known.at(result.meshes.keys[p]).is_faulty; },
+      made, [&](std::size_t p) { return made.known.at(result.meshes.of_region[p]).is_faulty; },
       [&](std::size_t p, const patch_mesh& mesh) { result.failures.push_back(parts.failure_of(p, mesh)); });
   result.made = made.meshes.made() - made_before;
   return result;
@@ -149,17 +149,16 @@ mesh_patches_by(const skeleton_to_remesh& of,
 
 DOVETAIL_INLINE std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
                                                               const coarse_skeleton& skeleton,
-                                                              const region_store& made,
-                                                              double threshold_deg) {
+                                                              const region_memo& made, double threshold_deg) {
   std::vector<local_id> faces;
   for (std::size_t f = 0; f < skeleton.faces.size(); ++f)
-    if (made.known.at(patches.meshes.keys[skeleton.regions.size() + f]).least_angle_deg < threshold_deg)
+    if (made.known.at(patches.meshes.of_region[skeleton.regions.size() + f]).least_angle_deg < threshold_deg)
       faces.push_back(static_cast<local_id>(f));
   return faces;
 }
 
 DOVETAIL_INLINE remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches,
-                                               const any_executor& run, const region_store& made,
+                                               const any_executor& run, const region_memo& made,
                                                const progress& on_progress) {
   const detail::skeleton_parts parts(of);
   const detail::patches_to_join joined{of.skeleton,
@@ -177,8 +176,8 @@ DOVETAIL_INLINE remeshed_skeleton join_patches(const skeleton_to_remesh& of, ske
   report deviation;
   for (std::size_t p = 0; p < of.skeleton.regions.size(); ++p)
     note_deviation(deviation, "face " + std::to_string(of.skeleton.regions[p].cad_face),
-                   made.known.at(patches.meshes.keys[p]).deviation);
-  result.patches.keys = std::move(patches.meshes.keys);
+                   made.known.at(patches.meshes.of_region[p]).deviation);
+  result.patches.of_patch = std::move(patches.meshes.of_region);
   result.patches.failures = std::move(patches.failures);
   warn_of_deviations(result.summary, deviation);
   result.summary.children.push_back(std::move(deviation));

@@ -6,6 +6,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
 #include "dovetail/skeleton/line_segments.hpp"
@@ -17,7 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -40,7 +40,7 @@ public:
         lines_of_face_(lines_of_faces(coarse)),
         faces_of_line_(faces_of_lines(lines_of_face_, coarse.lines.size())) {
     for (const skeleton_line& line : coarse.lines)
-      line_keys_.push_back(dovetail::key_of(line, coarse_points, size));
+      fine_of_line_.push_back(kept_line(line, coarse_points, size));
   }
 
   /// Faces around what changed are tried in the next sweep, as they may be worse or easier to mend now.
@@ -64,22 +64,23 @@ private:
     return {coarse_points_, coarse_, lines_, size_, threshold_, lines_of_face_, faces_of_line_};
   }
 
-  /// All that the trials of faces are a function of but the model, the plain sizes and the mesher.
-  content_key key_of(const matched_skeleton& skeleton, const faces_in_turn& faces) const {
-    key_maker make;
-    make(threshold_);
+  /// The segments for faces, which are a function of these and of all that lies beside them.
+  kept<std::vector<face_segments>> kept_segments(const matched_skeleton& skeleton,
+                                                 const faces_in_turn& faces) const {
+    std::vector<std::array<vec3, 3>> corners;
+    std::vector<kept<fine_line>> lines;
+    std::vector<std::vector<size_ball>> sizes;
     const auto add = [&](local_id other) {
-      for (const vec3& p : skeleton.corners(other))
-        make(p.x)(p.y)(p.z);
+      corners.push_back(skeleton.corners(other));
       for (const local_id line : skeleton.sides(other))
-        make(static_cast<std::int64_t>(line_keys_[line].value));
-      make(static_cast<std::int64_t>(size_.key_near(skeleton.place(other)).value));
+        lines.push_back(fine_of_line_[line]);
+      sizes.push_back(size_.balls_near(skeleton.place(other)));
     };
     for (const local_id f : faces) {
       add(f);
       skeleton.for_each_beside(f, add);
     }
-    return make.key();
+    return kept<std::vector<face_segments>>::of(threshold_, corners, lines, sizes);
   }
 
   static double triangles_in(const matched_skeleton& skeleton, const faces_in_turn& faces) {
@@ -95,18 +96,18 @@ private:
 
   void mend(const std::vector<faces_in_turn>& pass) {
     const matched_skeleton skeleton = as_it_is();
-    std::vector<content_key> keys;
+    std::vector<kept<std::vector<face_segments>>> wanted;
     std::vector<double> costs;
     for (const faces_in_turn& faces : pass) {
-      keys.push_back(key_of(skeleton, faces));
+      wanted.push_back(kept_segments(skeleton, faces));
       costs.push_back(triangles_in(skeleton, faces));
     }
     const auto failures = made_.make_missing(
-        keys, costs, triangles_per_task,
-        [&](const std::vector<std::size_t>& wanted) {
+        wanted, costs, triangles_per_task,
+        [&](const std::vector<std::size_t>& missing) {
           const task_model own(model_, run_);
           std::vector<std::vector<face_segments>> chosen;
-          for (const std::size_t i : wanted)
+          for (const std::size_t i : missing)
             chosen.push_back(segments_for(pass[i], own.get(), skeleton));
           return chosen;
         },
@@ -114,7 +115,7 @@ private:
     if (!failures.empty())
       throw mesher_error("trials of other segments for the lines of an interface face failed: " +
                          failures.front().reason);
-    made_.for_each(keys, [&](std::size_t i, const std::vector<face_segments>& chosen) {
+    made_.for_each(wanted, [&](std::size_t i, const std::vector<face_segments>& chosen) {
       for (std::size_t k = 0; k < chosen.size(); ++k)
         accept(pass[i][k], chosen[k]);
     });
@@ -144,7 +145,7 @@ private:
         auto changed = as_it_is().with_segments(model_, l, chosen[i]);
         coarse_.lines[l] = changed.line;
         lines_[l] = std::move(changed.fine);
-        line_keys_[l] = dovetail::key_of(changed.line, coarse_points_, size_);
+        fine_of_line_[l] = kept_line(changed.line, coarse_points_, size_);
         append(touched_, std::as_const(faces_of_line_)[l]);
       }
   }
@@ -161,7 +162,7 @@ private:
   const progress& on_progress_;
   std::vector<std::array<local_id, 3>> lines_of_face_;
   compressed_rows<local_id> faces_of_line_;
-  std::vector<content_key> line_keys_;
+  std::vector<kept<fine_line>> fine_of_line_;
   std::vector<local_id> touched_; ///< faces at lines that a sweep changed
 };
 

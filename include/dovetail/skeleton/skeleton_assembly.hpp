@@ -26,7 +26,7 @@ struct patches_to_join {
   const coarse_skeleton& coarse;
   const numbered_lines& lines;
   const meshed_regions& meshes;
-  const region_store& store;
+  const region_memo& made;
   std::function<bool(std::size_t)> is_reversed;
   std::span<const local_id> material_of_subdomain;
 
@@ -48,8 +48,8 @@ class skeleton_assembly {
 public:
   explicit skeleton_assembly(const patches_to_join& from)
       : from_(from), first_point_{from.lines.points.size()}, first_triangle_{0} {
-    for (const content_key key : from.meshes.keys) {
-      const region_store::known_mesh& mesh = from.store.known.at(key);
+    for (const kept<patch_mesh>& patch : from.meshes.of_region) {
+      const region_memo::known_mesh& mesh = from.made.known.at(patch);
       first_point_.push_back(first_point_.back() + mesh.inner_points);
       first_triangle_.push_back(first_triangle_.back() + mesh.triangles);
     }
@@ -61,7 +61,7 @@ public:
   fine_skeleton run(const any_executor& run, const progress& on_progress) const {
     const std::size_t points = first_point_.back(), sides = first_triangle_.back();
     common_arrays<vec3, host, simplex<2>, std::array<local_id, 2>, local_id> assembled(
-        run, *from_.store.entities, "assembled", {points, points, sides, sides, sides});
+        run, "assembled", {points, points, sides, sides, sides});
     const std::vector<std::size_t> begins = tasks();
     assembled.fill(begins.size() - 1,
                    [&](std::size_t task) {
@@ -88,7 +88,7 @@ private:
   /// The first patch of each task, and the end of the last.
   std::vector<std::size_t> tasks() const {
     std::vector<std::size_t> begins{0};
-    const std::size_t patches = from_.meshes.keys.size();
+    const std::size_t patches = from_.meshes.of_region.size();
     for (std::size_t p = 0; p < patches; ++p)
       if (first_triangle_[p] - first_triangle_[begins.back()] >= triangles_per_task)
         begins.push_back(p);
@@ -103,7 +103,7 @@ private:
       result.points = from_.lines.points;
       result.point_hosts = hosts_of_lines();
     }
-    from_.meshes.for_each(from_.store, begin, end, [&](std::size_t p, const patch_mesh& mesh) {
+    from_.meshes.for_each(from_.made, begin, end, [&](std::size_t p, const patch_mesh& mesh) {
       auto beside = from_.is_region(p) ? from_.coarse.regions[p].subdomains : from_.face(p).subdomains;
       const bool bounds_nothing_behind = beside[0] == no_id;
       if (bounds_nothing_behind)
@@ -133,7 +133,7 @@ private:
 
   std::vector<host> hosts_of_lines() const {
     std::vector<host> hosts = from_.lines.hosts;
-    for (std::size_t p = from_.coarse.regions.size(); p < from_.meshes.keys.size(); ++p)
+    for (std::size_t p = from_.coarse.regions.size(); p < from_.meshes.of_region.size(); ++p)
       for (const local_id number : from_.meshes.labels[p])
         if (host& on = hosts[number]; on.dimension == 3)
           on = inside(from_.face(p));

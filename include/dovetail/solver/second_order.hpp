@@ -14,10 +14,8 @@
 #include "dovetail/mesh/mid_nodes.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/serial.hpp"
-#include "dovetail/parallel/spool.hpp"
 #include "dovetail/solver/gather.hpp"
 
-#include <optional>
 #include <vector>
 
 namespace dovetail::io {
@@ -26,8 +24,6 @@ namespace dovetail::io {
 struct second_order_options {
   double least_jacobian =
       0.1; ///< an element is inverted when `dovetail::least_jacobian` is below this, over 0
-  /// Where the result is kept, and taken from by a resumed run, whose pieces may have been given up.
-  std::optional<spool> store = {};
   double limit_seconds = 600; ///< wall clock per task; the last resort
   progress on_progress = {};  ///< told how the pieces come along
 };
@@ -36,12 +32,13 @@ struct second_order_options {
 /// worker, again when what they share has moved. The result does not depend on the executor. `model` is the
 /// one that the mesh is of. Throws `mesh_error` when pieces, skeleton and model disagree or when a task
 /// fails. Returns `middle_counts`, and warnings where middles are not on the model. Memory: 36 bytes per edge
-/// of the skeleton.
+/// of the skeleton. An executor that keeps its results on a disk keeps the nodes too: a resumed run finds
+/// them, whose pieces may have been given up.
 /// Complexity: linear, and a few evaluations of the model per edge on it.
 /// \param mesh gets `mid_nodes`
 /// \param model what the mesh is of
 /// \param run_tasks carries out independent tasks; the result does not depend on it
-/// \param options the least Jacobian, where nodes are kept, time limit
+/// \param options the least Jacobian, time limit
 template <int D>
 report add_mid_nodes(distributed_simplicial_mesh<D>& mesh, const any_geometry& model,
                      const any_executor& run_tasks = parallel::serial{},

@@ -10,6 +10,7 @@
 #include "dovetail/mesh/mesh_hash.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
+#include "dovetail/parallel/run_results.hpp"
 #include "dovetail/solver/edge_middles.hpp"
 #include "dovetail/solver/moving_middles.hpp"
 #include "dovetail/solver/second_order.hpp"
@@ -61,10 +62,10 @@ public:
         return inner_points(model, least, piece, edges, nodes);
       };
     const content_key key = key_of_result();
-    entity_store store(options_.store, "middles");
-    const auto find_kept = [&] { return store.find_value<kept_middles>(key); };
-    if (auto kept = options_.store ? run_.once(find_kept) : std::nullopt) {
-      take(*std::move(kept), summary);
+    const auto store = lasting_store_of(run_, "middles");
+    const auto find_kept = [&] { return store->find_value<kept_middles>(key); };
+    if (auto found = store ? run_.once(find_kept) : std::nullopt) {
+      take(*std::move(found), summary);
       return nodes_;
     }
     find_hosts();
@@ -72,8 +73,8 @@ public:
     check();
     const middle_counts counts = counted();
     summary.set(counts);
-    if (options_.store && run_.leads())
-      store.keep_value(key, kept_middles{nodes_->points, nodes_->inner, counts});
+    if (store && run_.leads())
+      store->keep_value(key, kept_middles{nodes_->points, nodes_->inner, counts});
     return nodes_;
   }
 

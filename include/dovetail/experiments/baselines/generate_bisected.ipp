@@ -6,7 +6,6 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/experiments/baselines/generate_bisected.hpp"
 #include "dovetail/experiments/baselines/interface_angles_of_skeleton.hpp"
-#include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/pipeline/assemble_mesh.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/only.hpp"
@@ -14,7 +13,6 @@
 #include "dovetail/pipeline/rounds.hpp"
 
 #include <cstddef>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -44,8 +42,7 @@ DOVETAIL_INLINE generated<3> generate_bisected(const any_geometry& model, const 
   const stopwatch measuring; // in the stage of the bisection
   result.fine_angles = detail::angles_of_interfaces(made.fine, rounds.size(), given.simplify_by);
   divided.summary.seconds += measuring.seconds();
-  auto meshed = mesh_wanted_pieces<3>(model, background.mesh, made, {}, rounds.size(),
-                                      std::make_shared<entity_store>(given.options.store), given);
+  auto meshed = mesh_wanted_pieces<3>(model, background.mesh, made, {}, rounds.size(), given);
   result.plan = background.plan;
   result.plan.subdomains = static_cast<int>(made.material_of_subdomain.size());
   result.quality = meshed.quality;

@@ -43,14 +43,13 @@ DOVETAIL_INLINE generated<3> generate_by_fine_partition(const any_geometry& mode
                                   .super_elements = std::numeric_limits<int>::max(), // each element is one
                                   .seam_weight = 1,
                                   .run_tasks = given.run_tasks,
-                                  .store = given.options.store,
                                   .on_progress = within_stage(given.options.on_progress, "fine partition")}(
           made.mesh, made.plan.subdomains);
   const stopwatch measuring; // in the same stage: improvement leaves interfaces as they are
   made.fine_angles = detail::angles_of_interfaces(parted.mesh->skeleton, sizes, given.simplify_by);
   parted.summary.seconds += measuring.seconds();
   auto improved = improve_pieces(*parted.mesh, given.improve_it, sizes, given.run_tasks,
-                                 {.store = given.options.store, .on_progress = given.options.on_progress});
+                                 {.on_progress = given.options.on_progress});
   made.mesh = std::move(improved.mesh);
   made.quality = improved.quality;
   made.subdomains = made.mesh.counts.size();

@@ -14,6 +14,7 @@
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
 #include "dovetail/parallel/kept_tasks.hpp"
+#include "dovetail/parallel/run_results.hpp"
 
 #include <algorithm>
 #include <array>
@@ -80,7 +81,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
                                const Label& label, const any_executor& run_tasks,
                                const improving_options& options) {
   const io::sides_by_subdomain<3> sides(mesh);
-  const auto store = std::make_shared<entity_store>(options.store, "labelled");
+  const auto store = store_of(run_tasks, "labelled");
   const kept_tasks tasks{run_tasks, *store, options.on_progress};
   std::vector<content_key> keys(mesh.counts.size());
   std::map<local_id, std::map<local_id, global_id>> elements_of; // of a label, by old piece

@@ -1,6 +1,5 @@
 /// @file
-/// Small entities, of a millisecond or less, that are made many in a task and lie in the entity store
-/// together.
+/// Small results, of a millisecond or less, that are made many in a task and kept together.
 #pragma once
 
 #include "dovetail/core/bytes.hpp"
@@ -10,7 +9,9 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
+#include "dovetail/parallel/run_results.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,9 +27,9 @@
 
 namespace dovetail {
 
-/// An entity that could not be made.
-struct entity_failure {
-  std::size_t entity = 0; ///< its number in the call
+/// A result that could not be made.
+struct memo_failure {
+  std::size_t number = 0; ///< in the call
   std::string reason;     ///< what its maker threw
 };
 
@@ -44,58 +45,61 @@ struct made_batch {
 
 } // namespace detail
 
-/// Values of one type by their keys. Consecutive ones that are missing make a batch, which is one task and
-/// one blob of the store; its key is that of its members, so a resumed run, where the same ones are missing,
-/// finds it again. Here are only keys: 40 bytes per entity, and the blobs where the store has no disk.
-template <encodable Entity>
-class batched_entities {
+/// Results of one type, each made once. Consecutive ones that are missing make a batch, which is one task and
+/// is kept as a whole under the names of its members, so a resumed run, where the same ones are missing,
+/// finds it again. Here are only names: 40 bytes per result, and the batches where the run has no disk.
+template <encodable Result>
+class memo {
 public:
-  /// Makes the entities of the given numbers; runs in a task.
-  using maker = std::function<std::vector<Entity>(const std::vector<std::size_t>& entities)>;
+  /// Makes the results of the given numbers; runs in a task.
+  using maker = std::function<std::vector<Result>(const std::vector<std::size_t>& numbers)>;
 
-  explicit batched_entities(std::shared_ptr<entity_store> store) : store_(std::move(store)) {}
+  /// In memory, as long as this.
+  memo() : store_(std::make_shared<entity_store>(nullptr, "result")) {}
+  /// Where an executor keeps its results, which are called `kind` there.
+  memo(const any_executor& run, const std::string& kind) : store_(store_of(run, kind)) {}
 
   /// How many were made so far, and not found.
   std::size_t made() const { return made_; }
 
   /// Makes those that are not there, in batches of at least `batch_cost`, the costliest first. The members of
   /// a batch that fails are made again one by one; those that fail alone are returned, by growing number, and
-  /// the others are kept. An `io_error` of the store, a `sizing_error` and a `usage_error`, which no other
-  /// attempt mends, are thrown.
-  std::vector<entity_failure> make_missing(std::span<const content_key> keys, std::span<const double> costs,
-                                           double batch_cost, const maker& make, const any_executor& run,
-                                           run_options options) {
-    std::vector<entity_failure> failures;
+  /// the others are kept. An `io_error`, a `sizing_error` and a `usage_error`, which no other attempt mends,
+  /// are thrown.
+  std::vector<memo_failure> make_missing(std::span<const kept<Result>> results, std::span<const double> costs,
+                                         double batch_cost, const maker& make, const any_executor& run,
+                                         run_options options) {
+    std::vector<memo_failure> failures;
     std::vector<batch> alone;
     const auto fail = [&](const batch& failed, std::string reason) {
       if (failed.members.size() == 1)
         failures.push_back({failed.members.front(), std::move(reason)});
       else
         for (const std::size_t i : failed.members)
-          alone.push_back(batch_of(keys, costs, {i}));
+          alone.push_back(batch_of(results, costs, {i}));
     };
-    make_all(missing(keys, costs, batch_cost), keys, make, run, options, fail);
-    make_all(std::exchange(alone, {}), keys, make, run, options, fail);
-    stable_sort_all(failures, [](const auto& a, const auto& b) { return a.entity < b.entity; });
+    make_all(missing(results, costs, batch_cost), results, make, run, options, fail);
+    make_all(std::exchange(alone, {}), results, make, run, options, fail);
+    stable_sort_all(failures, [](const auto& a, const auto& b) { return a.number < b.number; });
     return failures;
   }
 
-  /// Calls `use(i, entity)` for each key in turn. A blob is read once, and held from its first entity in
-  /// `keys` to its last. Throws `io_error` when one is missing or damaged.
+  /// Calls `use(i, result)` for each in turn. A batch is read once, and held from its first result in
+  /// `results` to its last. Throws `io_error` when one is missing or damaged.
   template <class Use>
-  void for_each(std::span<const content_key> keys, const Use& use) const {
+  void for_each(std::span<const kept<Result>> results, const Use& use) const {
     struct open_batch {
       std::size_t uses = 0;
-      std::vector<Entity> members;
+      std::vector<Result> members;
     };
     std::unordered_map<content_key, open_batch, content_key_hash> open;
-    for (const content_key key : keys)
-      ++open[places_.at(key).batch].uses;
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      const place at = places_.at(keys[i]);
+    for (const kept<Result>& result : results)
+      ++open[places_.at(result).batch].uses;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const place at = places_.at(results[i]);
       open_batch& held = open[at.batch];
       if (held.members.empty())
-        held.members = store_->value<std::vector<Entity>>(at.batch);
+        held.members = store_->value<std::vector<Result>>(at.batch);
       use(i, std::as_const(held.members[at.member]));
       if (--held.uses == 0)
         open.erase(at.batch);
@@ -113,30 +117,30 @@ private:
     std::size_t member;
   };
 
-  static batch batch_of(std::span<const content_key> keys, std::span<const double> costs,
+  static batch batch_of(std::span<const kept<Result>> results, std::span<const double> costs,
                         std::vector<std::size_t> members) {
-    batch result{.members = std::move(members)};
+    batch made{.members = std::move(members)};
     key_maker make;
-    for (const std::size_t i : result.members) {
-      make(static_cast<std::int64_t>(keys[i].value));
-      result.cost += costs[i];
+    for (const std::size_t i : made.members) {
+      make(static_cast<std::int64_t>(results[i].key().value));
+      made.cost += costs[i];
     }
-    result.key = make.key();
-    return result;
+    made.key = make.key();
+    return made;
   }
 
-  std::vector<batch> missing(std::span<const content_key> keys, std::span<const double> costs,
+  std::vector<batch> missing(std::span<const kept<Result>> results, std::span<const double> costs,
                              double batch_cost) const {
     std::vector<batch> batches;
     std::vector<std::size_t> members;
     double cost = 0;
     const auto close = [&] {
       if (!members.empty())
-        batches.push_back(batch_of(keys, costs, std::exchange(members, {})));
+        batches.push_back(batch_of(results, costs, std::exchange(members, {})));
       cost = 0;
     };
-    for (std::size_t i = 0; i < keys.size(); ++i) {
-      if (places_.contains(keys[i]))
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      if (places_.contains(results[i]))
         continue;
       members.push_back(i);
       cost += costs[i];
@@ -149,38 +153,38 @@ private:
 
   /// Keeps the batches that can be made, and calls `fail(batch, reason)` for each other one.
   template <class Fail>
-  void make_all(const std::vector<batch>& batches, std::span<const content_key> keys, const maker& make,
+  void make_all(const std::vector<batch>& batches, std::span<const kept<Result>> results, const maker& make,
                 const any_executor& run, run_options options, const Fail& fail) {
     options.order.resize(batches.size());
     std::iota(options.order.begin(), options.order.end(), std::size_t{0});
     stable_sort_all(options.order,
                     [&](std::size_t a, std::size_t b) { return batches[a].cost > batches[b].cost; });
-    auto results = map_tasks(
+    auto said = map_tasks(
         run, batches.size(), [&](std::size_t b) { return make_batch(batches[b], make); }, options);
-    std::vector<content_key> kept;
+    std::vector<content_key> there;
     for (std::size_t b = 0; b < batches.size(); ++b) {
       const std::vector<std::size_t>& members = batches[b].members;
-      if (!results[b].value) {
-        fail(batches[b], std::move(results[b].failure));
+      if (!said[b].value) {
+        fail(batches[b], std::move(said[b].failure));
         continue;
       }
-      made_ += results[b].value->is_new ? members.size() : 0;
-      kept.push_back(store_->take(std::move(results[b].value->kept)));
+      made_ += said[b].value->is_new ? members.size() : 0;
+      there.push_back(store_->take(std::move(said[b].value->kept)));
       for (std::size_t i = 0; i < members.size(); ++i)
-        places_[keys[members[i]]] = {batches[b].key, i};
+        places_[results[members[i]]] = {batches[b].key, i};
     }
-    store_->exchange(run.network(), kept);
+    store_->exchange(run.network(), there);
   }
 
   /// In a worker, which puts it into the store itself where it can.
   detail::made_batch make_batch(const batch& wanted, const maker& make) const {
-    if (store_->is_shared() && store_->find(wanted.key))
+    if (store_->find(wanted.key))
       return {false, {wanted.key, {}}};
     return {true, store_->keep_in_task(wanted.key, encoded(make(wanted.members)))};
   }
 
   std::shared_ptr<entity_store> store_;
-  std::unordered_map<content_key, place, content_key_hash> places_;
+  std::unordered_map<kept<Result>, place, kept_hash> places_;
   std::size_t made_ = 0;
 };
 
