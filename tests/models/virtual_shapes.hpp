@@ -211,7 +211,11 @@ private:
 
   void check_curves() {
     const auto passages = passages_of_curves(topology_), before = passages_of_curves(given_.topology());
-    const int most = *std::max_element(before.begin(), before.end());
+    const auto& gone = made_.suppressed();
+    const bool has_gaps = std::any_of(gone.begin(), gone.end(), [](const suppressed_detail& one) {
+      return one.what == suppressed_detail::kind::narrow_gap; // two edges of the surface are one
+    });
+    const int most = *std::max_element(before.begin(), before.end()) * (has_gaps ? 2 : 1);
     for (std::size_t c = 0; c < passages.size(); ++c) {
       const auto& curve = topology_.curves[c];
       const std::string name = "curve " + std::to_string(c);

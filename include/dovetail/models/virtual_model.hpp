@@ -29,11 +29,13 @@ struct virtual_options {
 struct suppression_counts {
   std::size_t narrow_faces = 0; ///< faces that are curves
   std::size_t narrow_ends = 0;  ///< of faces that stay
+  std::size_t narrow_gaps = 0;  ///< between two edges of a solid, where they begin
   std::size_t short_edges = 0;  ///< edges that are vertices
   double largest = 0;           ///< the widest of these faces, or the longest of these edges
 
   using fields = field_list<&suppression_counts::narrow_faces, &suppression_counts::narrow_ends,
-                            &suppression_counts::short_edges, &suppression_counts::largest>;
+                            &suppression_counts::narrow_gaps, &suppression_counts::short_edges,
+                            &suppression_counts::largest>;
 };
 
 /// Any `geometry_model` as it is meant at the sizes given: faces far narrower than the size are the curves

@@ -5,6 +5,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/models/virtual/editable_topology.hpp"
 #include "dovetail/models/virtual/narrow_faces.hpp"
+#include "dovetail/models/virtual/narrow_gaps.hpp"
 #include "dovetail/models/virtual/short_edges.hpp"
 #include "dovetail/models/virtual/tiny_faces.hpp"
 #include "dovetail/models/virtual_model.hpp"
@@ -105,6 +106,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
     found += collapse_narrow_faces(topology, allowed, made->suppressed);
     found += collapse_folded_faces(topology, of_folded, made->suppressed);
     found += collapse_narrow_ends(topology, allowed, made->suppressed);
+    found += collapse_narrow_gaps(topology, allowed, made->suppressed);
   }
   made->topology = topology.topology();
   for (std::size_t c = 0; c < topology.curve_count(); ++c)
@@ -193,6 +195,7 @@ DOVETAIL_INLINE report virtual_model::summary() const {
   for (const suppressed_detail& one : data_->suppressed) {
     ++(one.what == suppressed_detail::kind::narrow_face  ? counts.narrow_faces
        : one.what == suppressed_detail::kind::narrow_end ? counts.narrow_ends
+       : one.what == suppressed_detail::kind::narrow_gap ? counts.narrow_gaps
                                                          : counts.short_edges);
     counts.largest = std::max(counts.largest, one.length);
   }

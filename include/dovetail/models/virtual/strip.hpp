@@ -55,6 +55,10 @@ std::vector<turn_back> turns_of_face(const editable_topology& topology, const li
 std::optional<strip> narrow_end(editable_topology& topology, const limits& allowed, local_id f,
                                 const turn_back& turn);
 
+/// The same of two curves that leave one vertex beside each other, each run from there.
+std::optional<strip> narrow_gap(editable_topology& topology, const limits& allowed, const side_curve& first,
+                                const side_curve& second);
+
 /// Whether a face is a narrow strip, or has a narrow end, that ends at a curve.
 bool has_narrow_end_at(const editable_topology& topology, const limits& allowed, local_id f, local_id c);
 

@@ -199,6 +199,16 @@ inline bool cut_where_apart(editable_topology& topology, const limits& allowed, 
   return true;
 }
 
+/// The same, or the other way round: either side may be the one that ends first.
+inline std::optional<strip> cut_either_where_apart(editable_topology& topology, const limits& allowed,
+                                                   strip tip) {
+  if (cut_where_apart(topology, allowed, tip))
+    return tip;
+  std::swap(tip.sides[0], tip.sides[1]);
+  std::reverse(tip.ends[0].begin(), tip.ends[0].end());
+  return cut_where_apart(topology, allowed, tip) ? std::optional(tip) : std::nullopt;
+}
+
 } // namespace detail
 
 DOVETAIL_INLINE std::vector<turn_back> turns_of_face(const editable_topology& topology, const limits& allowed,
@@ -233,11 +243,15 @@ DOVETAIL_INLINE std::optional<strip> narrow_end(editable_topology& topology, con
                 detail::along(loop, turn.after, 1)};
   if (!detail::are_plain(topology, f, made.sides))
     return std::nullopt;
-  if (detail::cut_where_apart(topology, allowed, made))
-    return made;
-  std::swap(made.sides[0], made.sides[1]); // the other one may be the one that ends first
-  std::reverse(made.ends[0].begin(), made.ends[0].end());
-  return detail::cut_where_apart(topology, allowed, made) ? std::optional(made) : std::nullopt;
+  return detail::cut_either_where_apart(topology, allowed, std::move(made));
+}
+
+DOVETAIL_INLINE std::optional<strip> narrow_gap(editable_topology& topology, const limits& allowed,
+                                                const side_curve& first, const side_curve& second) {
+  strip made;
+  made.is_tip = true;
+  made.sides = {side{first}, side{second}};
+  return detail::cut_either_where_apart(topology, allowed, std::move(made));
 }
 
 DOVETAIL_INLINE bool has_narrow_end_at(const editable_topology& topology, const limits& allowed, local_id f,

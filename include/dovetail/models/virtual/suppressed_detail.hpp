@@ -16,6 +16,7 @@ struct suppressed_detail {
   enum class kind : std::uint8_t {
     narrow_face, ///< a face that became a curve, or a vertex
     narrow_end,  ///< the end of a face, which became a curve
+    narrow_gap,  ///< where two edges of a solid begin beside each other: they became one there
     short_edge   ///< an edge that became a vertex
   };
   kind what = kind::narrow_face; ///< what it is
@@ -31,6 +32,8 @@ inline std::string_view name_of(suppressed_detail::kind what) {
     return "narrow face";
   case suppressed_detail::kind::narrow_end:
     return "narrow end of a face";
+  case suppressed_detail::kind::narrow_gap:
+    return "narrow gap between edges";
   case suppressed_detail::kind::short_edge:
     return "short edge";
   }
