@@ -2,6 +2,8 @@
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesher/checks.hpp"
+#include "dovetail/parallel/remembering.hpp"
+#include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/pipeline/fill.hpp"
 #include "dovetail/sizing/sources.hpp"
@@ -290,6 +292,18 @@ TEST_CASE("a coarse surface with small sizes, a fine one with large sizes") {
   fill_options faster;
   faster.growth = 0.5;
   CHECK(fill(fine, faster).mesh.elements.size() < fill(fine).mesh.elements.size());
+}
+
+TEST_CASE("an executor that remembers is not asked for a fill in other sizes") {
+  const triangle_mesh cube = shapes::cube(2);
+  fill_options options;
+  options.run_regions = parallel::remembering(parallel::serial{});
+  const auto elements_of = [&](double size) {
+    return fill(
+               cube, [size](vec3) { return size; }, options)
+        .mesh.elements.size();
+  };
+  CHECK(elements_of(0.125) > 2 * elements_of(1));
 }
 
 TEST_CASE("the policies are the caller's") {
