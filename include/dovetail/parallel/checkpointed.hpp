@@ -39,9 +39,9 @@ private:
 
 } // namespace detail
 
-/// A spool as a place for blobs; null, which is memory, where there is none.
-inline std::shared_ptr<const blob_place> place_in(std::optional<spool> disk) {
-  return disk ? std::make_shared<const detail::spool_place>(*std::move(disk)) : nullptr;
+/// A spool as a place for blobs.
+inline std::shared_ptr<const blob_place> place_in(spool disk) {
+  return std::make_shared<const detail::spool_place>(std::move(disk));
 }
 
 namespace parallel {
