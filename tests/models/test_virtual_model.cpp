@@ -496,6 +496,66 @@ TEST_CASE("a step between two materials") {
   CHECK(counts_of(made.topology()).faces == 11);
 }
 
+namespace {
+
+/// A block of 10 by 10 by 5, and what is cut out of it.
+TopoDS_Shape block_without(const TopoDS_Shape& cut) {
+  return BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 5).Shape(), cut).Shape();
+}
+
+/// From corner to corner.
+TopoDS_Shape box_between(vec3 a, vec3 b) {
+  return BRepPrimAPI_MakeBox(gp_Pnt(a.x, a.y, a.z), gp_Pnt(b.x, b.y, b.z)).Shape();
+}
+
+} // namespace
+
+TEST_CASE("the bottom of a slit becomes an edge, and so do its ends") {
+  const auto details_in = [](const TopoDS_Shape& cut) {
+    const virtual_model made = without_details(model_of(block_without(cut)));
+    for (const suppressed_detail& one : made.suppressed()) {
+      CHECK(one.what == kind::narrow_face);
+      CHECK(one.length < 0.15); // across a corner
+    }
+    return made.suppressed().size();
+  };
+  CHECK(details_in(box_between({5, -1, 2}, {5.1, 11, 6})) == 1); // open at both ends, which stay open
+  CHECK(details_in(box_between({5, -1, 2}, {5.1, 6, 6})) == 2);
+  CHECK(details_in(box_between({5, 2, 2}, {5.1, 8, 6})) == 3);
+  CHECK(details_in(box_between({5, 2, -1}, {5.1, 8, 6})) == 2);
+  CHECK(
+      details_in(BRepAlgoAPI_Cut(box_between({3, 3, 2}, {7, 7, 6}), box_between({3.1, 3.1, 1}, {6.9, 6.9, 7}))
+                     .Shape()) == 1);
+  const gp_Ax2 axis(gp_Pnt(5, 5, 2), gp_Dir(0, 0, 1));
+  CHECK(details_in(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(axis, 2.1, 5).Shape(),
+                                   BRepPrimAPI_MakeCylinder(axis, 2, 5).Shape())
+                       .Shape()) == 1);
+}
+
+TEST_CASE("a slit stays open at its ends, with walls of two heights, too") {
+  const virtual_model made = without_details(
+      model_of(bar_with_profile({{0, 0}, {10, 0}, {10, -3}, {10.1, -3}, {10.1, -1}, {20, -1}})));
+  CHECK(kinds_of(made) == std::vector{kind::narrow_face});
+}
+
+TEST_CASE("where a slit is filled, wide, or runs into a point, nothing is left out") {
+  const TopoDS_Shape slit = box_between({5, -1, 2}, {5.1, 11, 5});
+  TopoDS_Compound filled;
+  const BRep_Builder builder;
+  builder.MakeCompound(filled);
+  builder.Add(filled, block_without(slit));
+  builder.Add(filled, box_between({5, 0, 2}, {5.1, 10, 5}));
+  check_kept_whole(model_of(filled));
+  check_kept_whole(model_of(block_without(box_between({5, -1, 2}, {5.3, 11, 6}))));
+
+  BRepBuilderAPI_MakePolygon outline; // of a wing, blunt in front: 5 degrees behind
+  for (const gp_Pnt& corner : {gp_Pnt(2, 3, 2), gp_Pnt(8, 3, 2.26), gp_Pnt(2, 3, 2.52)})
+    outline.Add(corner);
+  outline.Close();
+  check_kept_whole(model_of(block_without(
+      BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire()).Face(), gp_Vec(0, 4, 0)).Shape())));
+}
+
 TEST_CASE("vertices of short edges at the end of a strip move no further than others") {
   for (const double height : {0.1, 0.15, 0.2, 0.24}) {
     CAPTURE(height);

@@ -6,7 +6,9 @@
 #include "pipeline/plane_meshes.hpp"
 #include "pipeline/solid_meshes.hpp"
 
+#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <doctest/doctest.h>
 
@@ -83,6 +85,16 @@ TEST_CASE("a step all around a cylinder is one circle") {
       BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 3), gp_Dir(0, 0, 1), gp_Dir(0, 1, 0)), 3, 3).Shape();
   check_meshes(occt_shape_from(BRepAlgoAPI_Fuse(lower, upper).Shape()).model, 1,
                std::numbers::pi * 3 * (3.1 * 3.1 + 3 * 3));
+}
+
+TEST_CASE("no element is thin under a slit, straight or around a pin") {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(10, 10, 5).Shape();
+  const TopoDS_Shape cut = BRepPrimAPI_MakeBox(gp_Pnt(5, -1, 2), gp_Pnt(5.05, 6, 6)).Shape();
+  check_meshes(occt_shape_from(BRepAlgoAPI_Cut(block, cut).Shape()).model, 1, 500 - 0.05 * 6 * 3);
+  const TopoDS_Shape hole = BRepPrimAPI_MakeBox(gp_Pnt(3, 3, 2), gp_Pnt(7, 7, 6)).Shape();
+  const TopoDS_Shape pin = BRepPrimAPI_MakeBox(gp_Pnt(3.05, 3.05, 2), gp_Pnt(6.95, 6.95, 5)).Shape();
+  check_meshes(occt_shape_from(BRepAlgoAPI_Fuse(BRepAlgoAPI_Cut(block, hole).Shape(), pin).Shape()).model, 1,
+               500 - (4 * 4 - 3.9 * 3.9) * 3);
 }
 
 TEST_CASE("random solids with random details are meshed, closed") {

@@ -20,7 +20,8 @@ struct virtual_options {
   double share_of_folded =
       1; ///< the same, if it is larger and the other is not 0, for faces between two that
          ///< go on along each other, where the surface goes there, back and there again
-  double least_angle_deg = 40;           ///< what would leave a sharper edge between faces behind stays
+  double least_angle_deg = 40;           ///< what would leave a sharper edge between faces behind stays,
+                                         ///< unless these are the walls of a slit: nothing is meshed there
   double least_corner_deg = 28;          ///< what would leave a sharper corner of a face behind stays
   std::vector<local_id> kept_faces = {}; ///< whose boundaries stay as they are
 };

@@ -13,7 +13,7 @@ namespace dovetail::virtual_topology {
 /// Up to what an entity is a detail, and what may not come of it.
 struct limits {
   any_sizing length;                     ///< what is at most so long or wide, there, is a detail
-  double least_angle_deg = 40;           ///< no edge becomes sharper
+  double least_angle_deg = 40;           ///< no edge becomes sharper, but at the bottom of a slit
   double least_corner_deg = 28;          ///< nor does a corner of a face
   std::vector<local_id> kept_faces = {}; ///< whose boundaries stay
 };
@@ -25,7 +25,7 @@ inline constexpr double least_loop = 6; ///< limits: what is left of a smaller o
 bool is_short(const editable_topology& topology, const limits& allowed, local_id c);
 
 /// Whether a passage may be taken out of its loop: the loop stays one, far longer than the limit, without a
-/// corner sharper than allowed, unless it was so before.
+/// corner sharper than allowed, unless it was so before, or the face is all around it.
 bool can_be_dropped(const editable_topology& topology, const limits& allowed, const passage& p);
 
 /// Whether the boundaries of all faces that must be kept are the same in both.

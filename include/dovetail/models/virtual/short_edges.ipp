@@ -37,6 +37,12 @@ inline bool ends_can_meet(const editable_topology& topology, const limits& allow
   return true;
 }
 
+/// Whether a boundary turns away from its face where it goes on to the next coedge.
+inline bool turns_away(const editable_topology& topology, local_id f, const virtual_coedge& from,
+                       const virtual_coedge& to) {
+  return dot(topology.inward(f, from, 1), topology.direction(to, 0)) < 0;
+}
+
 } // namespace detail
 
 DOVETAIL_INLINE bool is_short(const editable_topology& topology, const limits& allowed, local_id c) {
@@ -58,8 +64,13 @@ DOVETAIL_INLINE bool can_be_dropped(const editable_topology& topology, const lim
     return angle_between(topology.direction(from, 1), topology.direction(to, 0));
   };
   constexpr double same = 0.02; // radians, by which curves bend: a corner that is as sharp already only moves
-  return turn(before, after) <= std::max({std::numbers::pi - allowed.least_corner_deg / degrees_per_radian,
-                                          turn(before, gone) + same, turn(gone, after) + same});
+  const double at_start = turn(before, gone), at_end = turn(gone, after);
+  if (turn(before, after) <= std::max({std::numbers::pi - allowed.least_corner_deg / degrees_per_radian,
+                                       at_start + same, at_end + same}))
+    return true;
+  // The face is all around the corner, as where it ends at a slit.
+  return detail::turns_away(topology, p.face, before, gone) &&
+         detail::turns_away(topology, p.face, gone, after) && at_start + at_end <= std::numbers::pi + same;
 }
 
 DOVETAIL_INLINE bool keeps_faces(const editable_topology& before, const editable_topology& after,

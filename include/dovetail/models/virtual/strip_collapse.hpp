@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -49,6 +50,8 @@ public:
   }
 
 private:
+  static constexpr double slit_deg = 10; ///< walls of a slit go on along each other
+
   bool is_end_of_face() const { return narrow_.is_tip && face_ != no_id; }
   vec3 point_of(local_id v) const { return topology_.vertex(v).point; }
   double limit_at(local_id v) const { return allowed_.length(point_of(v)); }
@@ -159,7 +162,8 @@ private:
     return touch && !is_sharp(p.place, other) && !is_sharp(other, p.place);
   }
 
-  /// The faces behind the two sides do not fold onto each other, and there is one: a sheet of its own stays.
+  /// The faces behind the two sides do not fold onto each other, unless nothing is meshed between them, and
+  /// there is one: a sheet of its own stays.
   bool faces_can_meet() const {
     bool has_neighbour = false;
     const auto passages_behind = [&](const side_curve& passed) {
@@ -184,16 +188,51 @@ private:
     const auto& range = topology_.curve(second.curve).t;
     for (const double share : {0.1, 0.5, 0.9}) {
       const double along = first.reversed ? 1 - share : share;
-      const vec3 on_first = topology_.point(first.curve, t[0] + along * (t[1] - t[0]));
+      const double here = t[0] + along * (t[1] - t[0]);
+      const vec3 on_first = topology_.point(first.curve, here);
       const place_on_side beside = nearest_on(topology_, {{second.curve, true}}, on_first);
       const double there = (beside.t - range[0]) / (range[1] - range[0]);
       const double angle =
+          degrees_per_radian *
           angle_between(topology_.inward(p.face, first, share),
                         topology_.inward(q.face, second, second.reversed ? 1 - there : there));
-      if (angle < allowed_.least_angle_deg / degrees_per_radian)
+      const vec3 across = topology_.point(second.curve, beside.t) - on_first;
+      if (angle < allowed_.least_angle_deg &&
+          !(angle < slit_deg && is_at_slit(p, here, across) && is_at_slit(q, beside.t, -across)))
         return false;
     }
     return true;
+  }
+
+  /// Whether the strip is the bottom of a slit, and a passage one of a wall, as far as one wall can tell at
+  /// parameter t: the face is between the walls, no solid is, and `across`, to the other wall, is about as
+  /// far as the strip is wide. No element is in the angle that it leaves. Where a wing ends is no slit,
+  /// though nothing is meshed in it: that runs into a point.
+  bool is_at_slit(const passage& p, double t, vec3 across) const {
+    constexpr double least_width = 0.5; // of the largest one
+    constexpr double least_off = 0.2;   // of the face: the sine of an angle
+    const auto& face = topology_.model().topology().faces[p.face];
+    const surface_frame frame =
+        topology_.model().face_frame(p.face, topology_.uv(p.face, topology_.at(p), t));
+    const double off =
+        dot(normalized(cross(frame.du, frame.dv)), normalized(across)) * (face.reversed ? -1 : 1);
+    const std::size_t front = off > 0 ? 1 : 0;
+    return norm(across) >= least_width * width_ && std::abs(off) >= least_off &&
+           face.solids[front] == no_id && face.solids[1 - front] != no_id &&
+           goes_across(topology_.at(p).curve, t, across);
+  }
+
+  /// Whether the strip's face is on that side of one of its curves.
+  bool goes_across(local_id c, double t, vec3 across) const {
+    const auto passages = topology_.passages_of(c);
+    const auto own =
+        std::find_if(passages.begin(), passages.end(), [&](const passage& p) { return p.face == face_; });
+    if (own == passages.end())
+      return false;
+    const auto& range = topology_.curve(c).t;
+    const double along = (t - range[0]) / (range[1] - range[0]);
+    const virtual_coedge& coedge = topology_.at(*own);
+    return dot(topology_.inward(face_, coedge, coedge.reversed ? 1 - along : along), across) > 0;
   }
 
   /// Whether what is left of the loop, once its tip is cut, bounds something.
