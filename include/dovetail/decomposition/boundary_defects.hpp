@@ -8,20 +8,32 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
 
-/// The elements around each point, growing.
+/// The elements around each point of a mesh, and the points where it ends: what no partition changes.
 template <int D>
-compressed_rows<local_id> elements_around_points(const simplicial_mesh<D>& mesh) {
-  return sorted_into_rows<local_id>(mesh.points.size(), [&](const auto& put) {
-    for (std::size_t e = 0; e < mesh.elements.size(); ++e)
-      for (const local_id v : mesh.elements[e])
-        put(v, static_cast<local_id>(e));
-  });
-}
+struct point_stars {
+  compressed_rows<local_id> elements;    ///< around each point, growing
+  std::vector<std::uint8_t> on_boundary; ///< per point: whether a side there has one element
+
+  point_stars(const simplicial_mesh<D>& mesh, const side_table<D>& sides)
+      : elements(sorted_into_rows<local_id>(mesh.points.size(),
+                                            [&](const auto& put) {
+                                              for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+                                                for (const local_id v : mesh.elements[e])
+                                                  put(v, static_cast<local_id>(e));
+                                            })),
+        on_boundary(mesh.points.size(), 0) {
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      if (!sides.is_interior(static_cast<local_id>(s)))
+        for (const local_id v : sides.vertices[s])
+          on_boundary[v] = 1;
+  }
+};
 
 /// How far a boundary is from a manifold.
 struct defect_count {
@@ -49,18 +61,16 @@ template <int D>
 class boundary_defects {
 public:
   boundary_defects(const simplicial_mesh<D>& mesh, const side_table<D>& sides)
-      : mesh_(mesh), sides_(sides), around_(elements_around_points(mesh)),
-        on_boundary_(mesh.points.size(), 0), place_in_link_(mesh.points.size()) {
-    for (std::size_t s = 0; s < sides.size(); ++s)
-      if (!sides.is_interior(static_cast<local_id>(s)))
-        for (const local_id v : sides.vertices[s])
-          on_boundary_[v] = 1;
-  }
+      : boundary_defects(mesh, sides, std::make_shared<const point_stars<D>>(mesh, sides)) {}
+  /// With the stars of this mesh, where there are some already.
+  boundary_defects(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                   std::shared_ptr<const point_stars<D>> stars)
+      : mesh_(mesh), sides_(sides), stars_(std::move(stars)), place_in_link_(mesh.points.size()) {}
 
   /// The elements around each point.
-  const compressed_rows<local_id>& around() const { return around_; }
+  const compressed_rows<local_id>& around() const { return stars_->elements; }
   /// Is there a side at the point that bounds some part, whatever the parts are?
-  bool is_on_boundary(local_id point) const { return on_boundary_[point] != 0; }
+  bool is_on_boundary(local_id point) const { return stars_->on_boundary[point] != 0; }
 
   /// Defects at a point, all parts together; `part_of(element)` is the part of an element.
   template <class PartOf>
@@ -89,7 +99,7 @@ private:
 
   template <class PartOf>
   bool is_inside_one_part(local_id point, const PartOf& part_of) const {
-    const auto elements = around_[point];
+    const auto elements = around()[point];
     return !is_on_boundary(point) && std::all_of(elements.begin(), elements.end(), [&](local_id e) {
       return part_of(e) == part_of(elements.front());
     });
@@ -98,7 +108,7 @@ private:
   template <class PartOf>
   void collect_boundary(local_id point, const PartOf& part_of) {
     sides_here_.clear();
-    for (const local_id e : around_[point]) {
+    for (const local_id e : around()[point]) {
       const auto& vertices = mesh_.elements[e];
       const local_id own = part_of(e);
       for (std::size_t i = 0; i <= static_cast<std::size_t>(D); ++i) {
@@ -165,8 +175,7 @@ private:
 
   const simplicial_mesh<D>& mesh_;
   const side_table<D>& sides_;
-  compressed_rows<local_id> around_;
-  std::vector<std::uint8_t> on_boundary_; ///< per point
+  std::shared_ptr<const point_stars<D>> stars_;
   // Scratch:
   std::vector<link_side> sides_here_;
   std::vector<link_end> ends_;

@@ -6,6 +6,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/boundary_defects.hpp"
 #include "dovetail/decomposition/cut_off_components.hpp"
+#include "dovetail/decomposition/super_element_points.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <set>
 #include <span>
 #include <utility>
@@ -65,12 +67,17 @@ public:
   reassignable_parts(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                      std::span<const local_id> super_of_element, const csr_graph& graph,
                      std::span<local_id> part, std::vector<double> limits)
-      : mesh_(mesh), sides_(sides), defects_(mesh, sides), super_(super_of_element), graph_(graph),
-        part_(part), limits_(std::move(limits)),
+      : reassignable_parts(
+            std::make_shared<const super_element_points<D>>(mesh, sides, super_of_element, part.size()),
+            graph, part, std::move(limits)) {}
+  /// With what is known of the super-elements already.
+  reassignable_parts(std::shared_ptr<const super_element_points<D>> supers, const csr_graph& graph,
+                     std::span<local_id> part, std::vector<double> limits)
+      : supers_(std::move(supers)), defects_(supers_->mesh(), supers_->sides(), supers_->stars()),
+        graph_(graph), part_(part), limits_(std::move(limits)),
         weights_(part_weights(graph, part, static_cast<int>(limits_.size()))), sizes_(limits_.size(), 0),
         foreign_neighbours_(part.size(), 0), place_in_border_(part.size(), no_id), borders_(limits_.size()),
-        points_(points_of_supers()), counted_(mesh.points.size()), is_counted_(mesh.points.size(), 0),
-        components_(graph, part) {
+        counted_(mesh().points.size()), is_counted_(mesh().points.size(), 0), components_(graph, part) {
     for (local_id s = 0; s < super_count(); ++s) {
       ++sizes_[part_of(s)];
       join_border_if_there(s);
@@ -79,15 +86,15 @@ public:
       change_weight(static_cast<local_id>(p), 0);
   }
 
-  const simplicial_mesh<D>& mesh() const { return mesh_; } ///< the mesh that the elements are of
-  const side_table<D>& sides() const { return sides_; }    ///< of that mesh
+  const simplicial_mesh<D>& mesh() const { return supers_->mesh(); } ///< the mesh that the elements are of
+  const side_table<D>& sides() const { return supers_->sides(); }    ///< of that mesh
   const csr_graph& graph() const { return graph_; }
   /// The elements around a point.
   std::span<const local_id> elements_at(local_id point) const { return defects_.around()[point]; }
   /// The super-element that an element is in.
-  local_id super_of(local_id element) const { return super_[element]; }
-  std::size_t point_count() const { return mesh_.points.size(); } ///< points of the mesh
-  local_id super_count() const { return graph_.node_count(); }    ///< how many super-elements there are
+  local_id super_of(local_id element) const { return supers_->super_of(element); }
+  std::size_t point_count() const { return mesh().points.size(); } ///< points of the mesh
+  local_id super_count() const { return graph_.node_count(); }     ///< how many super-elements there are
   /// The part that a super-element is in now.
   local_id part_of(local_id super) const { return part_[super]; }
   /// The part that each super-element is in now.
@@ -180,19 +187,13 @@ public:
   std::vector<local_id> points_of(std::span<const local_id> supers) const {
     std::vector<local_id> points;
     for (const local_id s : supers)
-      append(points, points_[s]);
+      append(points, supers_->points_of(s));
     if (supers.size() > 1)
       sort_unique(points);
     return points;
   }
   /// The super-elements at a point, growing.
-  std::vector<local_id> supers_at(local_id point) const {
-    std::vector<local_id> supers;
-    for (const local_id e : defects_.around()[point])
-      supers.push_back(super_[e]);
-    sort_unique(supers);
-    return supers;
-  }
+  std::vector<local_id> supers_at(local_id point) const { return supers_->supers_at(point); }
   /// The parts next to super-elements of one part, growing.
   std::vector<local_id> parts_beside(std::span<const local_id> supers) const {
     std::vector<local_id> parts;
@@ -249,25 +250,8 @@ public:
   }
 
 private:
-  /// The points of each super-element, growing, where others meet it or the mesh ends: at all others no
-  /// partition has a defect.
-  compressed_rows<local_id> points_of_supers() const {
-    const auto is_inside = [&](local_id point) {
-      const auto around = defects_.around()[point];
-      return !defects_.is_on_boundary(point) && std::all_of(around.begin(), around.end(), [&](local_id e) {
-        return super_of(e) == super_of(around.front());
-      });
-    };
-    return sorted_into_rows<local_id>(part_.size(), [&](const auto& put_into) {
-      for (std::size_t v = 0; v < mesh_.points.size(); ++v)
-        if (const auto point = static_cast<local_id>(v); !is_inside(point))
-          for (const local_id s : supers_at(point))
-            put_into(s, point);
-    });
-  }
-
   defect_count count_at(local_id point) {
-    return defects_.count_at(point, [this](local_id e) { return part_[super_[e]]; });
+    return defects_.count_at(point, [this](local_id e) { return part_[super_of(e)]; });
   }
 
   void put(local_id super, local_id to) {
@@ -287,7 +271,7 @@ private:
         leave_border(other);
     }
     join_border_if_there(super);
-    for (const local_id v : points_[super])
+    for (const local_id v : supers_->points_of(super))
       is_counted_[v] = 0;
   }
   void change_weight(local_id part, double by) {
@@ -321,10 +305,8 @@ private:
     place = no_id;
   }
 
-  const simplicial_mesh<D>& mesh_;
-  const side_table<D>& sides_;
+  std::shared_ptr<const super_element_points<D>> supers_;
   boundary_defects<D> defects_;
-  std::span<const local_id> super_;
   const csr_graph& graph_;
   std::span<local_id> part_;
   std::vector<double> limits_;               ///< per part
@@ -334,7 +316,6 @@ private:
   std::vector<local_id> foreign_neighbours_; ///< per super-element: how many are in other parts
   std::vector<local_id> place_in_border_;    ///< per super-element: in the border of its part, or no_id
   std::vector<std::vector<local_id>> borders_;
-  compressed_rows<local_id> points_;     ///< per super-element
   std::vector<defect_count> counted_;    ///< per point: its defects, where `is_counted_`
   std::vector<std::uint8_t> is_counted_; ///< per point
   cut_off_components components_;
