@@ -179,6 +179,8 @@ generate_options make_generate_options(const mesh_options& options) {
   }
   if (options.super_element_bound == "off")
     result.super_elements.fraction = std::numeric_limits<double>::infinity();
+  if (options.paper)
+    result.partitioned_at_once = std::numeric_limits<local_id>::max();
   result.predicted_weights = options.weights != "equal";
   result.match_segments = options.segment_matching != "off";
   result.repartition_locally = options.local_repartition != "off";

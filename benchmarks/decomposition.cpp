@@ -1,11 +1,12 @@
 /// Seconds of processor time per step from a coarse mesh to subdomains: adjacency, simplification, partition,
 /// repair. The mesh is a jittered lattice in a ball-like box, graded towards its centre, as is the sizing.
 /// Usage: decomposition [elements (default 3000000)] [parts (default 256)] [partitioners (default metis
-/// greedy; metis:4 tries four partitions)]
+/// greedy; metis:4 tries four partitions, metis:groups partitions in groups)]
 #include "dovetail/adapters/metis.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/partition/greedy.hpp"
+#include "dovetail/partition/in_groups.hpp"
 #include "dovetail/simplification/paper.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "support/jittered_meshes.hpp"
@@ -103,6 +104,8 @@ int main(int argc, char** argv) {
       measure("metis", partition::metis{}, coarse, parts);
     else if (name == "metis:4")
       measure("metis:4", partition::metis{.trials = 4}, coarse, parts);
+    else if (name == "metis:groups")
+      measure("metis:groups", partition::in_groups{partition::metis{}}, coarse, parts);
     else
       measure("greedy", partition::greedy{}, coarse, parts);
 }

@@ -1,7 +1,7 @@
-#include "dovetail/decomposition/apportion.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
+#include "dovetail/partition/apportion.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/none.hpp"

@@ -202,6 +202,21 @@ TEST_CASE("the mesh is the same for every executor and number of workers") {
     CHECK(hash_with(parallel::processes{.worker_count = workers}) == expected);
 }
 
+TEST_CASE("in solids whose graph is partitioned in groups interfaces are as clean") {
+  generate_options options = in_parts(20);
+  const auto hash_with = [&](const auto& run) {
+    const auto made = mesh_shape(drilled_block(), 0.12, options, run);
+    require_valid(made);
+    CHECK(made.coarse_angles.violations.empty());
+    return io::mesh_hash(made.mesh);
+  };
+  const auto at_once = hash_with(parallel::serial{});
+  options.partitioned_at_once = 120;
+  const auto in_groups = hash_with(parallel::serial{});
+  CHECK(in_groups != at_once);
+  CHECK(hash_with(parallel::processes{.worker_count = 2}) == in_groups);
+}
+
 TEST_CASE("points lie on the CAD entities that they are said to lie on") {
   const auto model = occt_shape_from(drilled_block()).model;
   const auto result = generate<3>(model, uniform_size(0.15),

@@ -40,6 +40,20 @@ TEST_CASE("ranks make the mesh and the files that one process makes, whatever th
   }
 }
 
+TEST_CASE("a graph that is partitioned in groups makes the same mesh on any number of ranks") {
+  const scratch_folder folder("ranks");
+  generate_options options;
+  options.subdomains = 24;
+  const ranked_mesh at_once = mesh_square(parallel::serial{}, folder / "at_once", options);
+  options.partitioned_at_once = 60;
+  const ranked_mesh alone = mesh_square(parallel::serial{}, folder / "alone", options);
+  CHECK_FALSE(alone == at_once);
+  for (const int count : {1, 2, 4})
+    parallel::run_ranks(count, [&](parallel::in_process& mine) {
+      CHECK(mesh_square(parallel::ranks(mine), folder / std::to_string(count), options) == alone);
+    });
+}
+
 TEST_CASE("ranks with spools that the others do not see make the same mesh, and go on with other ranks") {
   const scratch_folder folder("ranks");
   const run_identity identity{{"test", "1"}};

@@ -27,6 +27,7 @@
 #include "dovetail/partition/checked_partition.hpp"
 #include "dovetail/partition/concepts.hpp"
 #include "dovetail/partition/connectivity.hpp"
+#include "dovetail/partition/node_groups.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
 #include <span>
@@ -86,6 +87,10 @@ struct graph_to_partition {
   labelled_components components;
   std::vector<double> weights; ///< of components
   std::vector<int> parts;      ///< of components
+
+  using fields = field_list<&graph_to_partition::graph, &graph_to_partition::material_of_super,
+                            &graph_to_partition::components, &graph_to_partition::weights,
+                            &graph_to_partition::parts>;
 };
 
 /// Throws what `decompose` throws of its arguments.
@@ -94,10 +99,6 @@ graph_to_partition graph_within_materials(const simplicial_mesh<D>& mesh, const 
                                           std::span<const local_id> super_of_element,
                                           const csr_graph& super_graph, std::span<const local_id> material,
                                           int parts, mesh_state mesh_is);
-
-/// The nodes of each component, growing, and the graph of some nodes.
-compressed_rows<local_id> nodes_of_components(const graph_to_partition& whole);
-csr_graph graph_of_nodes(const csr_graph& graph, std::span<const local_id> nodes);
 
 /// What a partition makes of the mesh, repaired.
 template <int D>
@@ -112,15 +113,14 @@ std::vector<local_id> partition_components(const graph_to_partition& whole, cons
                                            const progress& on_progress) {
   if (whole.components.count == 1)
     return checked_partition(partitioner, whole.graph, whole.parts[0]);
-  const auto nodes_of = nodes_of_components(whole);
+  const node_groups of_component(whole.graph, whole.components.of_node, whole.components.count);
   std::vector<local_id> part(whole.graph.node_weights.size(), no_id);
   local_id first_part = 0;
-  for (std::size_t c = 0; c < nodes_of.size(); ++c) {
+  for (std::size_t c = 0; c < of_component.size(); ++c) {
     on_progress.stop_if_requested();
-    const auto local =
-        checked_partition(partitioner, graph_of_nodes(whole.graph, nodes_of[c]), whole.parts[c]);
+    const auto local = checked_partition(partitioner, of_component.graph_of(c), whole.parts[c]);
     for (std::size_t k = 0; k < local.size(); ++k)
-      part[nodes_of[c][k]] = first_part + local[k];
+      part[of_component.nodes(c)[k]] = first_part + local[k];
     first_part += whole.parts[c];
   }
   return part;

@@ -6,11 +6,11 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/decomposition/apportion.hpp"
 #include "dovetail/decomposition/connected_refinement.hpp"
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/decomposition/manifold_repair.hpp"
 #include "dovetail/graph/contraction.hpp"
+#include "dovetail/partition/apportion.hpp"
 #include "dovetail/partition/connectivity.hpp"
 #include "dovetail/partition/part_weights.hpp"
 
@@ -59,34 +59,6 @@ std::vector<vec3> centres_of_supers(const simplicial_mesh<D>& mesh,
   for (std::size_t s = 0; s < supers; ++s)
     sums[s] = sums[s] / std::max(1.0, counts[s]);
   return sums;
-}
-
-DOVETAIL_INLINE compressed_rows<local_id> nodes_of_components(const graph_to_partition& whole) {
-  const labelled_components& components = whole.components;
-  return sorted_into_rows<local_id>(static_cast<std::size_t>(components.count), [&](const auto& put) {
-    for (std::size_t v = 0; v < components.of_node.size(); ++v)
-      put(components.of_node[v], static_cast<local_id>(v));
-  });
-}
-
-/// The nodes must be whole components.
-DOVETAIL_INLINE csr_graph graph_of_nodes(const csr_graph& graph, std::span<const local_id> nodes) {
-  const auto number = [&](local_id v) {
-    return static_cast<local_id>(std::lower_bound(nodes.begin(), nodes.end(), v) - nodes.begin());
-  };
-  csr_graph part;
-  for (const local_id v : nodes) {
-    const auto i = static_cast<std::size_t>(v);
-    part.node_weights.push_back(graph.node_weights[i]);
-    part.positions.push_back(graph.positions[i]);
-    for (auto k = static_cast<std::size_t>(graph.offsets[i]);
-         k < static_cast<std::size_t>(graph.offsets[i + 1]); ++k) {
-      part.neighbours.push_back(number(graph.neighbours[k]));
-      part.edge_weights.push_back(graph.edge_weights[k]);
-    }
-    part.offsets.push_back(static_cast<std::int64_t>(part.neighbours.size()));
-  }
-  return part;
 }
 
 /// The limit of every part: `imbalance` times the average of its component.

@@ -2,6 +2,7 @@
 /// Building and contracting graphs.
 #pragma once
 
+#include "dovetail/core/fields.hpp"
 #include "dovetail/graph/csr_graph.hpp"
 
 #include <cstddef>
@@ -88,6 +89,8 @@ subgraph induced_subgraph(const G& graph, std::span<const local_id> label, local
 struct labelled_components {
   std::vector<local_id> of_node; ///< the component of each node
   local_id count = 0;            ///< how many components there are
+
+  using fields = field_list<&labelled_components::of_node, &labelled_components::count>;
 };
 
 /// Components of the graph when only edges between nodes of the same label count. Linear.

@@ -7,6 +7,7 @@
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/require_valid.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
+#include "dovetail/partition/in_groups.hpp"
 #include "dovetail/pipeline/dimension_steps.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/simplification/angles_of_rule.hpp"
@@ -54,34 +55,69 @@ inline void require_background(const simplicial_background<2>& coarse, const sid
   require_valid(coarse.surface.mesh, sides, "the background mesh", {.orientation = false});
 }
 
+/// A background mesh simplified, and its super-elements as they are partitioned.
+struct simplified_background {
+  std::vector<double> weights;
+  std::vector<side_state> side_states;
+  std::vector<local_id> super_of_element;
+  graph_to_partition whole;
+  report summary;
+
+  using fields = field_list<&simplified_background::weights, &simplified_background::side_states,
+                            &simplified_background::super_of_element, &simplified_background::whole,
+                            &simplified_background::summary>;
+};
+
 template <int D, bound_parameters<D> Parameters>
-divided_background<D> divide_here(const simplicial_background<D>& coarse, const side_table<D>& sides,
-                                  const any_sizing& size, std::span<const integral_estimate> estimates,
-                                  int subdomains, const Parameters& given) {
+simplified_background simplify_here(const simplicial_background<D>& coarse, const side_table<D>& sides,
+                                    const any_sizing& size, std::span<const integral_estimate> estimates,
+                                    int subdomains, const Parameters& given) {
   const generate_options& options = given.options;
-  divided_background<D> result;
-  options.on_progress("simplification", 0, 0);
-  const stopwatch simplification_clock;
+  simplified_background result;
   result.weights = predict_elements<D>(coarse.elements(), size, {}, estimates).per_element;
   contraction_bound bound = options.super_elements;
   bound.subdomains = subdomains;
   const std::span<const double> weights =
       options.predicted_weights ? span_of(result.weights) : std::span<const double>(); // else 1 each
-  auto simplified = simplify_background(coarse, sides, weights, bound, given.simplify_by,
-                                        result.simplification, options.on_progress);
-  result.simplification.seconds = simplification_clock.seconds();
+  auto simplified = simplify_background(coarse, sides, weights, bound, given.simplify_by, result.summary,
+                                        options.on_progress);
+  result.whole =
+      graph_within_materials<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
+                                materials_of(coarse), subdomains, mesh_state::valid);
+  result.side_states = std::move(simplified.side_states);
+  result.super_of_element = std::move(simplified.super_of_element);
+  return result;
+}
 
-  options.on_progress("partition", 0, 0);
-  const stopwatch partition_clock;
-  result.pieces = decompose<D>(coarse.elements(), sides, simplified.super_of_element, simplified.graph,
-                               materials_of(coarse), given.partition_it, subdomains, 1.05,
-                               options.on_progress, mesh_state::valid);
+/// A large graph in tasks; one that is not is partitioned at once.
+template <class Parameters>
+std::vector<local_id> partition_of(const graph_to_partition& whole, const Parameters& given) {
+  const progress& on_progress = given.options.on_progress;
+  if (whole.graph.node_count() > given.options.partitioned_at_once) {
+    partition::in_groups by_groups{given.partition_it, given.run_tasks};
+    by_groups.nodes_per_group = std::max(1, given.options.partitioned_at_once / 12);
+    by_groups.on_progress = on_progress;
+    return partition_components(whole, by_groups, on_progress);
+  }
+  return given.run_tasks.once([&] { return partition_components(whole, given.partition_it, on_progress); });
+}
+
+template <int D, bound_parameters<D> Parameters>
+divided_background<D> divide_into(const simplicial_background<D>& coarse, const side_table<D>& sides,
+                                  const any_sizing& size, simplified_background simplified,
+                                  std::vector<local_id> part_of_super, const Parameters& given) {
+  constexpr double imbalance = 1.05;
+  divided_background<D> result;
+  result.pieces = decomposition_into<D>(coarse.elements(), sides, simplified.super_of_element,
+                                        std::move(simplified.whole), std::move(part_of_super), imbalance,
+                                        given.options.on_progress);
   result.angles =
       coarse_interface_angles(coarse, sides, simplified.side_states, result.pieces.part_of_element, size,
                               wanted_angles_of<D>(given.simplify_by));
+  result.weights = std::move(simplified.weights);
   result.side_states = std::move(simplified.side_states);
+  result.simplification = std::move(simplified.summary);
   result.partition = std::move(result.pieces.summary);
-  result.partition.seconds = partition_clock.seconds();
   return result;
 }
 
@@ -95,13 +131,21 @@ divided_background<D> divide(const simplicial_background<D>& coarse, const any_s
   detail::require_background(coarse, sides);
   const auto estimates =
       detail::integrate_in_tasks<D>(coarse.elements(), size, given.run_tasks, given.options.on_progress);
-  const double seconds_before = clock.seconds();
-  auto result = given.run_tasks.once(
-      [&] { return detail::divide_here<D>(coarse, sides, size, estimates, subdomains, given); });
+  given.options.on_progress("simplification", 0, 0);
+  auto simplified = given.run_tasks.once(
+      [&] { return detail::simplify_here<D>(coarse, sides, size, estimates, subdomains, given); });
+  const double simplification_seconds = clock.seconds();
+  given.options.on_progress("partition", 0, 0);
+  auto part_of_super = detail::partition_of(simplified.whole, given);
+  auto result = given.run_tasks.once([&] {
+    return detail::divide_into<D>(coarse, sides, size, std::move(simplified), std::move(part_of_super),
+                                  given);
+  });
+  result.simplification.seconds = simplification_seconds;
+  result.partition.seconds = clock.seconds() - simplification_seconds;
   if constexpr (D == 3)
     result.beside_surface = elements_beside_surface(coarse, sides);
   result.sides = std::move(sides);
-  result.simplification.seconds += seconds_before;
   return result;
 }
 

@@ -54,6 +54,8 @@ struct generate_options {
   /// A background element weighs, for bound and partitioner, the elements that the sizes predict in it;
   /// false: 1, as in the paper, section 3.4.
   bool predicted_weights = true;
+  /// A graph of more super-elements is partitioned in groups of a twelfth of that (`partition::in_groups`).
+  local_id partitioned_at_once = 200'000;
   bool match_segments = true; ///< D = 3: other numbers of segments are tried where a face has a small angle
   bool repartition_locally = true; ///< interfaces are moved from where remeshing makes an angle small
   /// Sizes that predict more elements are enlarged, all by one factor, until they predict so many; 0: never.

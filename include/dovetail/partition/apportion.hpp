@@ -18,5 +18,5 @@ std::vector<int> apportion_parts(std::span<const double> component_weights,
 } // namespace dovetail
 
 #ifndef DOVETAIL_COMPILED
-#include "dovetail/decomposition/apportion.ipp"
+#include "dovetail/partition/apportion.ipp"
 #endif

@@ -4,7 +4,7 @@
 
 #include "dovetail/core/ids.hpp"
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/decomposition/apportion.hpp"
+#include "dovetail/partition/apportion.hpp"
 
 #include <cstddef>
 #include <queue>
