@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -49,6 +50,11 @@ places_of_angles small_angles(const decomposed_shell& given, const realized<3>& 
   return detail::places_of_small_angles(
       made, detail::fine_interface_angles(made, given.background.mesh, given.divided, given.background.size,
                                           wanted_angles_of<3>(given.given.simplify_by), parallel::serial{}));
+}
+
+/// A crossing without a place, as of lines.
+std::optional<std::vector<vec3>> somewhere_if(bool crosses) {
+  return crosses ? std::optional(std::vector<vec3>{}) : std::nullopt;
 }
 
 /// As if the same came out for other subdomains.
@@ -156,7 +162,7 @@ TEST_CASE("Interfaces move away from 32 places, or one per hundred faces, and no
           ++looks;
           return made;
         },
-        [](const auto&) { return true; }, [&](const auto&) { return places; }, seconds);
+        [](const auto&) { return somewhere_if(true); }, [&](const auto&) { return places; }, seconds);
     return looks;
   };
   CHECK(looks_for(32, 100) == 1);
@@ -258,7 +264,7 @@ TEST_CASE("What is better around the changes but not as a whole is taken back") 
           CHECK(std::count(is_wanted.begin(), is_wanted.end(), true) > 0);
           return with_subdomains(start, subdomain_of_element, true);
         },
-        [&](const realized<3>& of) { return crosses_as_a_whole && !of.is_part; },
+        [&](const realized<3>& of) { return somewhere_if(crosses_as_a_whole && !of.is_part); },
         [&](const realized<3>& of) {
           places_of_angles places;
           const bool is_start = of.subdomain_of_element == start.subdomain_of_element;
@@ -296,7 +302,7 @@ TEST_CASE("A search that ends where something crosses is the last one; its best 
         looked_at.push_back(subdomain_of_element);
         return with_subdomains(start, subdomain_of_element, true);
       },
-      [&](const realized<3>& of) { return of.is_part && looked_at.size() == 2; },
+      [&](const realized<3>& of) { return somewhere_if(of.is_part && looked_at.size() == 2); },
       [&](const realized<3>& of) {
         // What was moved away from is mended; near it there is another one, so that there is a second round.
         const bool is_start = of.subdomain_of_element == start.subdomain_of_element;
@@ -306,6 +312,48 @@ TEST_CASE("A search that ends where something crosses is the last one; its best 
   CHECK(looked_at.size() == 2);
   CHECK(subdomains == looked_at[0]);
   CHECK(made.counts.repartition_rounds == 2);
+}
+
+TEST_CASE("Where something crosses the place next to it is given up, and the others are gone on with") {
+  decomposed_shell given(0.5, 16);
+  auto rounds = given.rounds(0.05);
+  const auto start = rounds.realize_boundaries().value();
+  const auto& faces = start.coarse.faces;
+  const auto& points = given.background.mesh.points();
+  const vec3 crossing = points[faces[0].vertices[0]];
+  std::size_t far_off = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (distance(points[faces[f].vertices[0]], crossing) >
+        distance(points[faces[far_off].vertices[0]], crossing))
+      far_off = f;
+  const places_of_angles both{{faces[0].side}, {faces[far_off].side}};
+  const auto is_inside = [&](const std::vector<local_id>& subdomain_of_element, std::size_t place) {
+    const auto& [a, b] = given.sides.elements[both[place][0]];
+    return subdomain_of_element[a] == subdomain_of_element[b];
+  };
+  repartition_rounds<3> repartition(given.background.mesh, given.divided, true);
+  auto subdomains = start.subdomain_of_element;
+  double seconds = 0;
+  const auto made = repartition.avoid_small_angles(
+      start, subdomains, 16, [&] { return with_subdomains(start, subdomains, false); },
+      [&](const auto& subdomain_of_element, const auto&) {
+        return with_subdomains(start, subdomain_of_element, true);
+      },
+      [&](const realized<3>& of) {
+        return is_inside(of.subdomain_of_element, 0) ? std::optional(std::vector{crossing}) : std::nullopt;
+      },
+      [&](const realized<3>& of) {
+        places_of_angles places;
+        for (std::size_t k = 0; k < both.size(); ++k)
+          if (!is_inside(of.subdomain_of_element, k))
+            places.push_back(both[k]);
+        return places;
+      },
+      seconds);
+  CHECK_FALSE(is_inside(subdomains, 0));
+  CHECK(is_inside(subdomains, 1));
+  CHECK(made.counts.repartition_rounds == 2);
+  CHECK(made.counts.repartitioned > 0);
 }
 
 TEST_CASE("Of a part only the places at the changes count, and elsewhere those of before") {
@@ -329,7 +377,7 @@ TEST_CASE("Of a part only the places at the changes count, and elsewhere those o
           wanted = is_wanted;
           return with_subdomains(start, subdomain_of_element, true);
         },
-        [](const auto&) { return false; },
+        [](const auto&) { return somewhere_if(false); },
         [&](const realized<3>& of) {
           if (!of.is_part)
             return of.subdomain_of_element == start.subdomain_of_element

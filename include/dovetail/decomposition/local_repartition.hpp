@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -37,14 +38,19 @@ public:
                     local_id parts) {
     append(places_, places);
     sort_unique(places_);
+    std::erase_if(places_, [&](const auto& place) {
+      return std::binary_search(given_up_.begin(), given_up_.end(), place);
+    });
     std::vector<local_id> part(pieces_.graph.node_weights.size());
     for (std::size_t e = 0; e < part_of_element.size(); ++e)
       part[super_of(e)] = part_of_element[e];
     std::vector<double> limits = part_weights(pieces_.graph, part, parts);
     for (double& limit : limits)
       limit *= growth;
-    reassignable_parts<D> reassignable(mesh_, sides_, pieces_.super_of_element, pieces_.graph, part,
-                                       std::move(limits));
+    if (!supers_)
+      supers_ = std::make_shared<const super_element_points<D>>(mesh_, sides_, pieces_.super_of_element,
+                                                                part.size());
+    reassignable_parts<D> reassignable(supers_, pieces_.graph, part, std::move(limits));
     manifold_repair<D> repair(reassignable);
     for (const auto& place : places_)
       if (!is_avoided(place, reassignable))
@@ -52,6 +58,14 @@ public:
     for (std::size_t e = 0; e < part_of_element.size(); ++e)
       part_of_element[e] = part[super_of(e)];
     return reassignable.assignments();
+  }
+
+  /// No move is made for these places any more. Returns whether there was one for which some might be.
+  bool give_up(std::span<const std::vector<local_id>> places) {
+    const std::size_t before = given_up_.size();
+    append(given_up_, places);
+    sort_unique(given_up_);
+    return given_up_.size() > before;
   }
 
 private:
@@ -165,7 +179,9 @@ private:
   const simplicial_mesh<D>& mesh_;
   const side_table<D>& sides_;
   const decomposition& pieces_;
-  places_of_angles places_; ///< growing
+  std::shared_ptr<const super_element_points<D>> supers_ = {}; ///< from the first call on
+  places_of_angles places_;                                    ///< growing
+  places_of_angles given_up_ = {};                             ///< growing
 };
 
 } // namespace dovetail

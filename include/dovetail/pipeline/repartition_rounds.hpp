@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/core/vector.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/local_repartition.hpp"
 #include "dovetail/pipeline/divide.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,17 +31,19 @@ public:
         are_wanted_(are_wanted && divided.angles.count(violation_cause::remeshing) == 0) {}
 
   /// Changes `subdomain_of_element`, of which `made` is realized, and returns what is realized of it then.
-  /// Rounds look at what is around their changes alone, until something crosses there; the best of them is
-  /// realized as a whole. All are taken back where that is no better, or something crosses. Where the coarse
-  /// interfaces have such angles already, the rule does not care for them, and nothing is done.
+  /// Rounds look at what is around their changes alone. One after which something crosses there is taken
+  /// back, and the places next to that are given up. The best round is realized as a whole; all are taken
+  /// back where that is no better, or something crosses. Where the coarse interfaces have such angles
+  /// already, the rule does not care for them, and nothing is done.
   ///
   /// `realize()` realizes `subdomain_of_element` as it is then, `realize_part(subdomain_of_element,
-  /// is_wanted)` what has a wanted point; `crosses(made)` says whether something crosses in that, and
-  /// `small_angles(made)` gives the places of small angles in it.
-  template <class Realize, class RealizePart, class Crosses, class SmallAngles>
+  /// is_wanted)` what has a wanted point; `crossings(made)` says where something crosses in that, nothing
+  /// where nothing does, and `small_angles(made)` gives the places of small angles in it.
+  template <class Realize, class RealizePart, class Crossings, class SmallAngles>
   realized<D> avoid_small_angles(realized<D> made, std::vector<local_id>& subdomain_of_element,
                                  local_id subdomains, const Realize& realize, const RealizePart& realize_part,
-                                 const Crosses& crosses, const SmallAngles& small_angles, double& seconds) {
+                                 const Crossings& crossings, const SmallAngles& small_angles,
+                                 double& seconds) {
     const auto realize_again = [&] {
       made = {}; // before the next one, which is as large
       made = realize();
@@ -50,13 +54,15 @@ public:
       candidate best{places, subdomain_of_element};
       const auto looks_at = [&](const std::vector<local_id>& subdomain, const std::vector<bool>& is_wanted) {
         auto part = realize_part(subdomain, is_wanted);
-        return crosses(part) ? std::nullopt : std::optional(small_angles(part));
+        if (auto crossed = crossings(part))
+          return sight{{}, std::move(crossed)};
+        return sight{small_angles(part), {}};
       };
       if (!find_better(best, subdomains, looks_at, seconds))
         break;
       const auto before = std::exchange(subdomain_of_element, std::move(best.subdomain_of_element));
       realize_again();
-      auto left = crosses(made) ? places : small_angles(made); // no better where something crosses
+      auto left = crossings(made) ? places : small_angles(made); // no better where something crosses
       if (left.size() >= places.size()) {
         subdomain_of_element = before;
         realize_again();
@@ -97,6 +103,12 @@ private:
     bool is_last = false;  ///< the search went on from it to where something crosses
   };
 
+  /// What is seen of a decomposition around its changes.
+  struct sight {
+    places_of_angles places;                    ///< of small angles
+    std::optional<std::vector<vec3>> crossings; ///< where something crosses, if something does
+  };
+
   /// Goes on from the best one round by round; whether there is a better one.
   template <class Look>
   bool find_better(candidate& best, local_id subdomains, const Look& looks_at, double& seconds) {
@@ -112,19 +124,55 @@ private:
         break;
       ++rounds_;
       here.moved += moved;
-      const auto places_there = looks_at(here.subdomain_of_element, points_around(changed));
-      if (!places_there) { // the same places would only ask for the same moves again
-        best.is_last = true;
+      const sight there = looks_at(here.subdomain_of_element, points_around(changed));
+      if (there.crossings) {
+        here.subdomain_of_element = before;
+        here.moved -= moved;
+        if (repartition_.give_up(places_next_to(*there.crossings, here.places)))
+          continue;
+        best.is_last = true; // the same places would only ask for the same moves again
         break;
       }
       std::erase_if(here.places, [&](const auto& place) { return is_at(place, changed); });
-      std::copy_if(places_there->begin(), places_there->end(), std::back_inserter(here.places),
+      std::copy_if(there.places.begin(), there.places.end(), std::back_inserter(here.places),
                    [&](const auto& place) { return is_at(place, changed); });
       sort_unique(here.places);
       if (here.places.size() < best.places.size())
         best = here;
     }
     return best.places.size() < places_before;
+  }
+
+  /// Of these places the one nearest to each point, and all that are hardly farther: by the length of its
+  /// sides.
+  places_of_angles places_next_to(const std::vector<vec3>& points, const places_of_angles& places) const {
+    places_of_angles next;
+    for (const vec3 point : points) {
+      const auto nearest = std::min_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+        return distance_to(a, point) < distance_to(b, point);
+      });
+      if (nearest == places.end())
+        continue;
+      const double reach = distance_to(*nearest, point) + length_of(*nearest);
+      std::copy_if(places.begin(), places.end(), std::back_inserter(next),
+                   [&](const auto& place) { return distance_to(place, point) <= reach; });
+    }
+    return next;
+  }
+  double distance_to(const std::vector<local_id>& place, vec3 point) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const local_id side : place)
+      for (const local_id v : sides_.vertices[side])
+        least = std::min(least, distance(mesh_.points()[v], point));
+    return least;
+  }
+  /// How far a point of one of its sides is from the first of that.
+  double length_of(const std::vector<local_id>& place) const {
+    double longest = 0;
+    for (const local_id side : place)
+      for (const local_id v : sides_.vertices[side])
+        longest = std::max(longest, distance(mesh_.points()[v], mesh_.points()[sides_.vertices[side][0]]));
+    return longest;
   }
 
   std::vector<bool> points_of_changed(const std::vector<local_id>& before,

@@ -144,6 +144,17 @@ private:
     return faults_of_failed_pieces(model_, mesh_, made, meshed.failures, state_.size, made_, given_);
   }
 
+  /// Where something crosses, if something does; crossings of lines have no place.
+  static std::optional<std::vector<vec3>> places_of_crossings(const suppression_plan& plan) {
+    if (plan.empty())
+      return {};
+    std::vector<vec3> places;
+    for (const auto* crossings : {&plan.interface_crossings, &plan.surface_crossings})
+      for (const surface_crossing& crossing : *crossings)
+        places.push_back(crossing.center);
+    return places;
+  }
+
   realized<D> realize_once() {
     return counted(realize<D>(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(), state_.size,
                               made_, given_));
@@ -172,7 +183,7 @@ private:
       made = repartition_.avoid_small_angles(
           std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
           [&] { return realize_once(); }, realize_part_of,
-          [&](const realized<3>& made_so) { return !boundaries_plan(made_so).empty(); },
+          [&](const realized<3>& made_so) { return places_of_crossings(boundaries_plan(made_so)); },
           [&](const realized<3>& made_so) { return small_angles_of(made_so); }, account_.seconds);
       made.counts.lines_made = made_.lines.made() - lines_before;
       made.counts.patches_made = made_.patches.meshes.made() - patches_before;
