@@ -286,6 +286,20 @@ int check_files(const report_files& given, const std::string& listed_in) {
   return exit_ok;
 }
 
+/// Says which meshes in a folder are not those of the run whose record is there: of other formats, an earlier
+/// run has left them.
+void tell_of_other_runs(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& meshes,
+                        const std::vector<written_file>& of_run) {
+  std::string others;
+  for (const auto& mesh : meshes)
+    if (std::none_of(of_run.begin(), of_run.end(), [&](const written_file& file) {
+          return (folder / file.name).lexically_normal() == mesh.lexically_normal();
+        }))
+      others += (others.empty() ? "" : ", ") + mesh.filename().string();
+  if (!others.empty())
+    std::printf("%s: not of the run that finished_run.txt tells of: %s\n", folder.c_str(), others.c_str());
+}
+
 /// Whether what the record of a run lists is as it was written: of a folder all of it, of a mesh its files,
 /// `read`. A mesh can be damaged and still be one. Nothing is said where there is no record of these.
 int check_record(const std::filesystem::path& path, const std::vector<std::filesystem::path>& read) {
@@ -347,6 +361,8 @@ int check_mesh(const std::filesystem::path& path) {
       result = of_file;
     done.insert(done.end(), files.begin(), files.end());
   }
+  if (const auto of_run = files_of_run_in(path); !of_run.empty())
+    tell_of_other_runs(path, all, of_run);
   return result == exit_ok ? check_record(path, {}) : result;
 }
 

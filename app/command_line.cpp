@@ -593,7 +593,7 @@ int run_command_line(int argc, char** argv) {
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::Success& request) { // --help, --version
-    return speaks ? line.app.exit(request) : exit_ok;
+    return speaks ? run_guarded([&] { return line.app.exit(request); }, help) : exit_ok;
   } catch (const CLI::RequiredError& problem) {
     return refuse(unknown_command(line.app, argc, argv).value_or(problem.what()));
   } catch (const CLI::ParseError& problem) {

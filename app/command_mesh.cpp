@@ -255,7 +255,6 @@ private:
     if (!resumes)
       io::unfinished_folder::remove(folder);
     store.emplace(folder, place, identity, resumes, true);
-    finished.forget();
     return beginning::goes_on;
   }
 
@@ -450,6 +449,8 @@ private:
     std::vector<io::any_piecewise_writer<D>> writers;
     for (const auto& format : formats_)
       writers.push_back(format.writer);
+    if (!writers.empty())
+      policies_.executor.once([&] { record.forget(); }); // before any rank replaces a file
     const auto finished = io::finish_mesh<D>(mesh, writers, folder, policies_.executor,
                                              {.release = true, .on_progress = parameters_.on_progress});
     figures_.mesh_hash = finished.hash;

@@ -5,9 +5,12 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 
+#include <poll.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 namespace dovetail::app {
 namespace {
@@ -26,6 +29,15 @@ std::string on_one_line(std::string text) {
       line += ' ';
   }
   return line;
+}
+
+/// Whether the standard output has all that was said, or its reader has gone.
+bool is_delivered() {
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good())
+    return true;
+  pollfd reader{STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&reader, 1, 0) == 1 && (reader.revents & POLLERR) != 0;
 }
 
 } // namespace
@@ -49,7 +61,10 @@ void share_complaints() {
 
 int run_guarded(const std::function<int()>& command, const std::string& help) {
   try {
-    return command();
+    const int code = command();
+    if (is_delivered())
+      return code;
+    complain("the standard output: not all could be written; make room where it goes");
   } catch (const command_line_error& problem) {
     complain(problem.what() + (" (" + help + ")"));
     return exit_usage;

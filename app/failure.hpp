@@ -22,7 +22,8 @@ public:
 };
 
 /// Runs a command; on an exception says on one line of the error stream what went wrong, and for a command
-/// line that is wrong where to find `help`, and returns the exit code.
+/// line that is wrong where to find `help`, and returns the exit code. What the command says and cannot be
+/// written, as on a full disk, is an error too; but not that nobody reads it any more.
 int run_guarded(const std::function<int()>& command, const std::string& help);
 
 /// What a command that was stopped says, and whether another one can go on from what it leaves.
