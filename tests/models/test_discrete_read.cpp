@@ -3,6 +3,7 @@
 #include "support/refusal.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <doctest/doctest.h>
 #include <fstream>
@@ -74,6 +75,27 @@ TEST_CASE("STL text and binary give the triangles written") {
   CHECK(text.group_names == std::vector<std::string>{"part"});
   CHECK(text.groups[7] == 0);
   CHECK(binary.groups[7] == no_id);
+}
+
+TEST_CASE("STL keywords are keywords in capitals, and behind blanks") {
+  const std::string small =
+      "solid Part A\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+      "endloop\nendfacet\nendsolid Part A\n";
+  std::string capitals = small;
+  for (char& c : capitals)
+    c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  write_content(read_folder / "small.stl", small);
+  write_content(read_folder / "capitals.stl", capitals);
+  write_content(read_folder / "behind.stl", " \r\n\t" + small);
+  write_content(read_folder / "mixed.stl", "Solid" + small.substr(5));
+  for (const char* name : {"small.stl", "capitals.stl", "behind.stl", "mixed.stl"}) {
+    CAPTURE(name);
+    const auto soup = read_triangles(read_folder / name);
+    CHECK(soup.triangles.size() == 1);
+    CHECK(area(soup) == doctest::Approx(0.5));
+    CHECK(soup.group_names ==
+          std::vector<std::string>{name == std::string("capitals.stl") ? "PART A" : "Part A"});
+  }
 }
 
 TEST_CASE("OBJ, OFF and PLY give the square written") {

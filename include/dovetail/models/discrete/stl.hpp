@@ -6,7 +6,9 @@
 #include "dovetail/models/discrete/soup.hpp"
 #include "dovetail/models/discrete/text_scanner.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -26,6 +28,19 @@ inline std::size_t binary_stl_facets(std::string_view data) {
   return count;
 }
 
+/// Whether this is the keyword, in small letters or in capitals.
+inline bool is_stl_word(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
+/// Whether a file begins as text does, behind blanks.
+inline bool begins_with_solid(std::string_view data) {
+  const std::string_view keyword = "solid";
+  const std::size_t first = data.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && is_stl_word(data.substr(first, keyword.size()), keyword);
+}
+
 /// Many binary files begin with "solid" too: a size that fits the number of facets exactly tells them apart.
 inline bool is_binary_stl(std::string_view data) {
   if (data.size() < stl_header_size)
@@ -33,7 +48,7 @@ inline bool is_binary_stl(std::string_view data) {
   if (data.size() == stl_header_size + stl_facet_size * binary_stl_facets(data))
     return true;
   const std::string_view head = data.substr(0, 512);
-  return !data.starts_with("solid") || head.find('\0') != std::string_view::npos;
+  return !begins_with_solid(data) || head.find('\0') != std::string_view::npos;
 }
 
 /// The triangles of a binary STL file. Throws `input_error` when it is shorter than announced.
@@ -72,26 +87,26 @@ inline triangle_soup parse_text_stl(std::string_view data, const std::string& fi
   int corners = 0;
   while (in.next_line()) {
     const std::string_view key = in.word();
-    if (key == "solid") {
+    if (is_stl_word(key, "solid")) {
       group = group_of(in.rest());
       open = true;
     } else if (!open) {
       in.fail("this is not an STL file: \"solid\" is expected first");
-    } else if (key == "facet") {
+    } else if (is_stl_word(key, "facet")) {
       corners = 0;
-    } else if (key == "vertex") {
+    } else if (is_stl_word(key, "vertex")) {
       soup.points.push_back(in.point());
       ++corners;
-    } else if (key == "endfacet") {
+    } else if (is_stl_word(key, "endfacet")) {
       if (corners != 3)
         in.fail("the facet has " + std::to_string(corners) + " vertices instead of 3");
       const auto end = static_cast<local_id>(soup.points.size());
       soup.triangles.push_back({end - 3, end - 2, end - 1});
       soup.groups.push_back(group);
       corners = 0;
-    } else if (key == "endsolid") {
+    } else if (is_stl_word(key, "endsolid")) {
       open = false;
-    } else if (key != "outer" && key != "endloop") {
+    } else if (!is_stl_word(key, "outer") && !is_stl_word(key, "endloop")) {
       in.fail("unknown word \"" + std::string(key.substr(0, 40)) + "\" in an STL file");
     }
   }
