@@ -88,9 +88,9 @@ struct graph_to_partition {
   std::vector<double> weights; ///< of components
   std::vector<int> parts;      ///< of components
 
-  using fields = field_list<&graph_to_partition::graph, &graph_to_partition::material_of_super,
-                            &graph_to_partition::components, &graph_to_partition::weights,
-                            &graph_to_partition::parts>;
+  using fields =
+      field_list<&graph_to_partition::graph, &graph_to_partition::material_of_super,
+                 &graph_to_partition::components, &graph_to_partition::weights, &graph_to_partition::parts>;
 };
 
 /// Throws what `decompose` throws of its arguments.

@@ -27,7 +27,7 @@ public:
 
   const simplicial_mesh<D>& mesh() const { return mesh_; } ///< the mesh that the elements are of
   const side_table<D>& sides() const { return sides_; }    ///< of that mesh
-  const std::shared_ptr<const point_stars<D>>& stars() const { return stars_; }
+  const std::shared_ptr<const point_stars<D>>& stars() const { return stars_; } ///< of the mesh's points
   /// The super-element that an element is in.
   local_id super_of(local_id element) const { return super_[element]; }
   /// The super-elements at a point, growing.

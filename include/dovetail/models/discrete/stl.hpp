@@ -28,7 +28,9 @@ inline std::size_t binary_stl_facets(std::string_view data) {
   return count;
 }
 
-/// Whether this is the keyword, in small letters or in capitals.
+/// Whether a word is a keyword, in small letters or in capitals.
+/// \param word any letters
+/// \param keyword in small letters
 inline bool is_stl_word(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
