@@ -22,7 +22,8 @@
 namespace dovetail::partition {
 
 /// Cuts a graph into groups by another partitioner, and, in tasks of an executor, each group into parts by
-/// the same. A group gets parts by its weight. Graphs that are not large enough for two groups go to the
+/// the same; in threads one after the other, since partitioners such as METIS draw the random numbers of
+/// their process. A group gets parts by its weight. Graphs that are not large enough for two groups go to the
 /// partitioner as they are, once.
 ///
 /// The parts are the same for any executor; all its ranks have to ask for them. Of 1.06 million
@@ -67,7 +68,7 @@ private:
   std::vector<std::vector<local_id>> parts_of_groups(const node_groups& split,
                                                      const std::vector<int>& counts) const {
     auto results = map_tasks(
-        run, split.size(),
+        runs_in_threads(run) ? any_executor(parallel::serial{}) : run, split.size(),
         [&](std::size_t g) { return checked_partition(partitioner, split.graph_of(g), counts[g]); },
         run_options{.on_progress = on_progress, .stage = "partition"});
     std::vector<std::vector<local_id>> made;
