@@ -48,6 +48,9 @@ mesh slit.brep --join 1e-3
 [[ $hash != "$open" ]] || fault "a slit narrower than the length stays"
 
 mesh pin.brep
+grep -q '"what": "narrow face"' "$sandbox/work/report.json" || fault "the bottom of the gap is not left out"
+warned "surfaces cross" && fault "the walls of the gap cross"
+mesh pin.brep --keep-all
 warned "surfaces cross, so faces nearer than [0-9.e-]+ to each other were made one there: see --join" ||
   fault "no warning says that the gap was closed"
 
