@@ -11,6 +11,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <concepts>
+#include <set>
 #include <vector>
 
 using namespace dovetail;

@@ -36,6 +36,9 @@
 
 namespace dovetail {
 
+/// What is allowed of the heaviest part over the average, unless something else is asked for.
+inline constexpr double largest_imbalance = 1.05;
+
 /// Who owns which element.
 struct decomposition {
   std::vector<local_id> part_of_element;  ///< a part for each element of the mesh
@@ -114,16 +117,12 @@ std::vector<local_id> partition_components(const graph_to_partition& whole, cons
   if (whole.components.count == 1)
     return checked_partition(partitioner, whole.graph, whole.parts[0]);
   const node_groups of_component(whole.graph, whole.components.of_node, whole.components.count);
-  std::vector<local_id> part(whole.graph.node_weights.size(), no_id);
-  local_id first_part = 0;
+  std::vector<std::vector<local_id>> parts_of_component;
   for (std::size_t c = 0; c < of_component.size(); ++c) {
     on_progress.stop_if_requested();
-    const auto local = checked_partition(partitioner, of_component.graph_of(c), whole.parts[c]);
-    for (std::size_t k = 0; k < local.size(); ++k)
-      part[of_component.nodes(c)[k]] = first_part + local[k];
-    first_part += whole.parts[c];
+    parts_of_component.push_back(checked_partition(partitioner, of_component.graph_of(c), whole.parts[c]));
   }
-  return part;
+  return of_component.joined(parts_of_component, whole.parts);
 }
 
 } // namespace detail
@@ -152,7 +151,7 @@ template <int D, graph_partitioner Partitioner>
 decomposition decompose(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
                         std::span<const local_id> super_of_element, const csr_graph& super_graph,
                         std::span<const local_id> material, const Partitioner& partitioner, int parts,
-                        double imbalance = 1.05, const progress& on_progress = {},
+                        double imbalance = largest_imbalance, const progress& on_progress = {},
                         mesh_state mesh_is = mesh_state::unknown) {
   const stopwatch time;
   auto whole =

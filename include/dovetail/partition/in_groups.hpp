@@ -51,7 +51,7 @@ struct in_groups {
     const std::vector<int> counts =
         apportion_parts(part_weights(graph, group, groups), split.counts(), parts);
     const auto made = parts_of_groups(split, counts);
-    return finished_once(graph, parts, [&] { return joined(split, counts, made); });
+    return finished_once(graph, parts, [&] { return split.joined(made, counts); });
   }
 
 private:
@@ -81,20 +81,6 @@ private:
       made.push_back(*std::move(results[g].value));
     }
     return made;
-  }
-
-  /// The parts of one group follow those of the one before.
-  static std::vector<local_id> joined(const node_groups& split, const std::vector<int>& counts,
-                                      const std::vector<std::vector<local_id>>& made) {
-    std::vector<local_id> part(split.node_count());
-    local_id first = 0;
-    for (std::size_t g = 0; g < made.size(); ++g) {
-      const auto nodes = split.nodes(g);
-      for (std::size_t k = 0; k < nodes.size(); ++k)
-        part[nodes[k]] = first + made[g][k];
-      first += counts[g];
-    }
-    return part;
   }
 };
 template <class P, class... Rest>

@@ -25,6 +25,12 @@ public:
   std::vector<local_id> counts() const;
   /// The nodes of a group with the edges between them, by their places in `nodes(group)`. Linear in these.
   csr_graph graph_of(std::size_t group) const;
+  /// A part per node of the graph, where every group is divided by itself: the parts of a group follow those
+  /// of the one before. Linear in the nodes.
+  /// \param parts_of_group per group the part of each node, by its place in `nodes(group)`
+  /// \param counts how many parts each group has
+  std::vector<local_id> joined(std::span<const std::vector<local_id>> parts_of_group,
+                               std::span<const int> counts) const;
 
 private:
   const csr_graph& graph_;

@@ -48,4 +48,18 @@ DOVETAIL_INLINE csr_graph node_groups::graph_of(std::size_t group) const {
   return own;
 }
 
+DOVETAIL_INLINE std::vector<local_id>
+node_groups::joined(std::span<const std::vector<local_id>> parts_of_group,
+                    std::span<const int> counts) const {
+  std::vector<local_id> part(node_count());
+  local_id first = 0;
+  for (std::size_t g = 0; g < nodes_.size(); ++g) {
+    const auto row = nodes(g);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      part[row[k]] = first + parts_of_group[g][k];
+    first += counts[g];
+  }
+  return part;
+}
+
 } // namespace dovetail

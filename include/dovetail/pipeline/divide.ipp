@@ -106,11 +106,10 @@ template <int D, bound_parameters<D> Parameters>
 divided_background<D> divide_into(const simplicial_background<D>& coarse, const side_table<D>& sides,
                                   const any_sizing& size, simplified_background simplified,
                                   std::vector<local_id> part_of_super, const Parameters& given) {
-  constexpr double imbalance = 1.05;
   divided_background<D> result;
   result.pieces = decomposition_into<D>(coarse.elements(), sides, simplified.super_of_element,
-                                        std::move(simplified.whole), std::move(part_of_super), imbalance,
-                                        given.options.on_progress);
+                                        std::move(simplified.whole), std::move(part_of_super),
+                                        largest_imbalance, given.options.on_progress);
   result.angles =
       coarse_interface_angles(coarse, sides, simplified.side_states, result.pieces.part_of_element, size,
                               wanted_angles_of<D>(given.simplify_by));

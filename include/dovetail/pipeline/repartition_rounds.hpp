@@ -166,7 +166,7 @@ private:
         least = std::min(least, distance(mesh_.points()[v], point));
     return least;
   }
-  /// How far a point of one of its sides is from the first of that.
+  /// The longest edge at the first point of one of its sides.
   double length_of(const std::vector<local_id>& place) const {
     double longest = 0;
     for (const local_id side : place)
