@@ -9,6 +9,7 @@
 #include "resolved_walls.hpp"
 #include "run_identity.hpp"
 #include "run_setup.hpp"
+#include "said_version.hpp"
 #include "sizes_for_elements.hpp"
 #include "stop_request.hpp"
 #include "suppression.hpp"
@@ -16,7 +17,6 @@
 
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/core/output_file.hpp"
-#include "dovetail/core/version.hpp"
 #include "png.hpp"
 
 #include <algorithm>
@@ -102,7 +102,7 @@ private:
     const std::time_t now = std::time(nullptr);
     std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
     std::vector<known_fact> facts{{"command", "Command", options_.command_line},
-                                  {"version", "Version", std::string("dovetail ") + version},
+                                  {"version", "Version", said_version()},
                                   {"date", "Begun at", date},
                                   {"sizes", "Sizes", text_of_sizes()},
                                   {"sizes_checksum", "Checksum of the sizes in the model's box",

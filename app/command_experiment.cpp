@@ -53,6 +53,7 @@ nlohmann::ordered_json origin_of(const experiment_options& options) {
   std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
   return {{"command", options.command_line},
           {"dovetail", version},
+          {"mesh_revision", mesh_revision},
           {"date", date},
           {"scale", options.scale},
           {"input", options.input},

@@ -15,9 +15,8 @@
 #include "rank_partitioner.hpp"
 #include "rank_supervision.hpp"
 #include "run_setup.hpp"
+#include "said_version.hpp"
 #include "supervision.hpp"
-
-#include "dovetail/core/version.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -250,7 +249,7 @@ struct parser {
   parser() {
     app.name("dovetail");
     app.formatter(std::make_shared<help_format>());
-    app.set_version_flag("--version", std::string("dovetail ") + version);
+    app.set_version_flag("--version", said_version());
     app.require_subcommand(1);
     app.footer("Exit codes:\n"
                "  0                           Done\n"

@@ -176,6 +176,7 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
   json interfaces = interfaces_json(figures.interfaces);
   interfaces["coarse"] = interfaces_json(figures.coarse_interfaces);
   json document = {{"dovetail", version},
+                   {"mesh_revision", mesh_revision},
                    {"dimension", figures.dimension},
                    {"model", figures.model},
                    {"decomposition", figures.decomposition},
@@ -222,11 +223,9 @@ void write_report(const run_figures& figures, const std::filesystem::path& file)
 void write_quality_report(const quality_statistics& quality, int dimension, std::int64_t vertices,
                           const report& details, const std::filesystem::path& file,
                           const std::optional<quality_at_interfaces>& at_interfaces) {
-  json document = {{"dovetail", version},
-                   {"dimension", dimension},
-                   {"elements", quality.elements},
-                   {"vertices", vertices},
-                   {"quality", quality_json(quality, dimension)}};
+  json document = {{"dovetail", version},    {"mesh_revision", mesh_revision},
+                   {"dimension", dimension}, {"elements", quality.elements},
+                   {"vertices", vertices},   {"quality", quality_json(quality, dimension)}};
   if (at_interfaces)
     document["at_interfaces"] = at_interfaces_json(*at_interfaces, dimension);
   document["details"] = details_json(details);
@@ -235,6 +234,7 @@ void write_quality_report(const quality_statistics& quality, int dimension, std:
 
 void write_plan(const plan_figures& figures, const std::filesystem::path& file) {
   write_json({{"dovetail", version},
+              {"mesh_revision", mesh_revision},
               {"dimension", figures.dimension},
               {"model", figures.model},
               {"predicted_elements", figures.elements},

@@ -163,7 +163,7 @@ TEST_CASE("What bounds no solid, or is open, or crosses itself, is named") {
   model sheet;
   sheet.add_face(shapes::cube(2), 0, no_id);
   sheet.add_face(shapes::cube(2, 1, {3, 0, 0}), no_id, no_id);
-  CHECK(message(sheet) == "face 1 'face 1' bounds no solid; remove it from the model");
+  CHECK(message(sheet) == "face 1 (face 1) bounds no solid; remove it from the model");
 
   model open;
   open.add_face(shapes::cube(2), 0, no_id);

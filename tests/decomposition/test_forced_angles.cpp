@@ -4,7 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 using namespace dovetail;
@@ -72,6 +74,15 @@ TEST_CASE("a slit that the domain lies around forces nothing; what the triangle 
   REQUIRE(angles.violations.size() == 1);
   CHECK(angles.violations[0].cause == violation_cause::remeshing);
   CHECK(angles.violations[0].cad == std::vector<host>{{2, 4}, {2, 5}});
+}
+
+TEST_CASE("a wedge of another solid between two faces forces an angle, though it is in front of both") {
+  interface_on_cad wedge = in_sharp_dihedral(true);
+  for (std::size_t t = 1; t < 3; ++t)
+    wedge.skeleton.subdomains.own()[t][1] = 1;
+  const auto angles = wedge.measure(0.1);
+  REQUIRE(angles.violations.size() == 1);
+  CHECK(angles.violations[0].cause == violation_cause::forced);
 }
 
 TEST_CASE("a dihedral between an interface and the CAD is forced at a sharp edge only") {

@@ -206,6 +206,43 @@ TEST_CASE("a bound on removed defects never hides a gain") {
   CHECK(gains > 5);
 }
 
+TEST_CASE("what is cut off goes with heavy super-elements, too, as long as it is light itself") {
+  int heavy_with_light = 0, refused = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    partitioned_mesh given(seed, 5, 1.1);
+    auto parts = given.reassignable();
+    random_numbers random(seed);
+    for (int k = 0; k < 50; ++k) {
+      std::vector<local_id> group{
+          static_cast<local_id>(random.bits() % static_cast<std::uint64_t>(parts.super_count()))};
+      const local_id own = parts.part_of(group[0]);
+      for (std::size_t next = 0; next < group.size() && parts.weight_of(group) < 0.2 * given.limits[0];
+           ++next)
+        for (const local_id s : given.simplified.graph.row(group[next]))
+          if (parts.part_of(s) == own && std::find(group.begin(), group.end(), s) == group.end())
+            group.push_back(s);
+      const local_id to = (own + 1) % 5;
+      const auto cut_off =
+          parts.keeps_connected(group) ? std::vector<local_id>{} : parts.components_cut_off_by(group);
+      const auto moved = parts.with_cut_off(group, to);
+      if (parts.weight_of(cut_off) > 0.1 * given.limits[0]) {
+        CHECK_FALSE(moved);
+        ++refused;
+      }
+      if (!moved)
+        continue;
+      std::vector<local_id> all = group;
+      append(all, cut_off);
+      CHECK(*moved == all);
+      CHECK(parts.keeps_connected(all));
+      heavy_with_light += !cut_off.empty() && !parts.is_light(parts.weight_of(group), to) ? 1 : 0;
+    }
+  }
+  CHECK(heavy_with_light > 5);
+  CHECK(refused > 0);
+}
+
 TEST_CASE("refinement never worsens a partition's standing and keeps its parts connected") {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     CAPTURE(seed);

@@ -6,6 +6,7 @@ source "$(dirname "$0")/expectations.sh"
 
 expect_success --help
 expect_success --version
+grep -qE '^dovetail [0-9.]+ \(meshes of revision [0-9]+\)$' "$sandbox/stdout" || fault "no version, or no revision"
 expect_success mesh --help
 expect_success models
 grep -q aircraft "$sandbox/stdout" || fault "the aircraft is not listed"

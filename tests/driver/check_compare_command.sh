@@ -40,7 +40,7 @@ command+=" --meshers tetgen --improvers none,native"
 for origin in "$command" "$("$driver" --version)" 'Checksum of cube.off'; do
   grep -qF "$origin" "$page" || fault "not on the page: $origin"
 done
-grep -qE ',dovetail [0-9.]+,20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z,0\.1,[0-9a-f]{16},[0-9a-f]{16}$' "$table" ||
+grep -qE ',dovetail [0-9.]+ \(meshes of revision [0-9]+\),20[0-9]{2}-[0-9]{2}-[0-9]{2}T[0-9:]{8}Z,0\.1,[0-9a-f]{16},[0-9a-f]{16}$' "$table" ||
   fault "version, date, sizes or checksums are not in the table"
 mapfile -t hashes < <(awk -F, 'NR == 1 { for (k = 1; k <= NF; ++k) if ($k == "mesh_hash") at = k; next } { print $at }' "$table")
 

@@ -3,6 +3,7 @@
 #include "file_checksums.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/version.hpp"
 #include "files/scratch_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -125,6 +126,7 @@ TEST_CASE("the report has all promised fields with the figures' values") {
   CHECK(document["deviation"]["faces"][0]["centres"] == 0.0625);
   CHECK(document["interfaces"]["coarse"]["min_face_angle_deg"] == 31.5);
   CHECK(document["interfaces"]["coarse"]["min_dihedral_deg"].is_null()); // not measured
+  CHECK(document["mesh_revision"] == mesh_revision);
   CHECK(document["mesh_hash"] == "0123456789abcdef");
   CHECK(document["repeatable"] == true);
   CHECK(document["details"]["children"][0]["counters"]["cells"] == 5.0);

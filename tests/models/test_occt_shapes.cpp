@@ -214,6 +214,19 @@ TEST_CASE("solids that overlap are divided, with a warning") {
   CHECK(result.report.warnings[0].find("overlap") != std::string::npos);
 }
 
+TEST_CASE("solids that are the same become one, with a warning that names them") {
+  TopoDS_Compound all;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  for (const double x : {0.0, 1.0, 5.0, 1.0}) // the second touches the first
+    builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(x, 0, 0), 1, 2, 3).Shape());
+  const occt_read_result result = occt_shape_from(all);
+  CHECK(result.model.topology().solids.size() == 3);
+  REQUIRE(result.report.warnings.size() == 1);
+  CHECK(result.report.warnings[0] ==
+        "solid 3 of the file is the same as solid 1; they are one solid of the mesh");
+}
+
 TEST_CASE("of solids with the same faces one is left, with a warning") {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
   const BRep_Builder builder;

@@ -65,7 +65,7 @@ TEST_CASE("a face that stays folded over, also when refined, is named") {
   topology.faces[1].name = "blend";
   CHECK_THROWS_WITH_AS(
       throw_crossing_faces(topology, {1, 1}),
-      "the surface of face 1 'blend' crosses itself or stays folded over, also when refined; "
+      "the surface of face 1 (blend) crosses itself or stays folded over, also when refined; "
       "repair the model there or give a smaller size",
       intersection_error);
 }

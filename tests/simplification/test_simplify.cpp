@@ -249,6 +249,33 @@ TEST_CASE("a side between elements that are one already is removed whatever the 
   CHECK(result.summary.get("removed_sides") == 3);
 }
 
+TEST_CASE("no small dihedral is left inside where sides that were only penalised have become internal") {
+  const simplifier::paper rule{.volume_dihedral_deg = 80};
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    CAPTURE(seed);
+    const auto mesh = squeezed_cubes(5, seed, 0.7);
+    const auto adj = dovetail_test::build_adjacency(mesh);
+    const mesh_duals<3> duals(mesh, adj.sides);
+    random_numbers random(seed);
+    std::vector<coupled_side> penalised;
+    for (std::size_t s = 0; s < adj.sides.size(); ++s)
+      if (adj.sides.is_interior(static_cast<local_id>(s)) && random.bits() % 4 == 0)
+        penalised.push_back(
+            {static_cast<local_id>(s), {.missed = {.value = 10, .wanted = 30}, .only_penalise = true}});
+    const auto result = contract_bounded(duals.elements(), duals.dihedrals(), rule(mesh, adj.sides), rule,
+                                         {.fraction = unbounded}, penalised);
+    const auto is = [&](local_id side, side_state state) { return result.side_states[side] == state; };
+    std::vector<bool> gone(adj.sides.size());
+    for (std::size_t s = 0; s < gone.size(); ++s)
+      gone[s] = is(static_cast<local_id>(s), side_state::removed);
+    for (const naive_dihedral& left : remaining_dihedrals<3>(mesh, adj, gone)) {
+      const bool is_fixed = is(left.from, side_state::fixed) && is(left.to, side_state::fixed);
+      const bool is_refused = is(left.from, side_state::refused) || is(left.to, side_state::refused);
+      CHECK((left.angle >= rule.volume_dihedral_deg - 1e-6 || is_fixed || is_refused));
+    }
+  }
+}
+
 TEST_CASE("the result is the same every time and for empty meshes") {
   const auto mesh = squeezed_cubes(6, 5);
   const auto sides = build_sides(mesh);

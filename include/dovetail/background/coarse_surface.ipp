@@ -95,7 +95,8 @@ private:
     }
   }
 
-  /// Faces are kept apart from each other when each is right: what is done about the others moves points.
+  /// Chords that two faces share are forbidden only once every face is meshed: repairing others moves points
+  /// of boundaries.
   void mesh() {
     const auto mesh_missing = [&](int chords) {
       meshed_ = mesh_them_(faces_, size_, made_,
@@ -196,10 +197,7 @@ private:
     return first;
   }
 
-  std::string name_of(std::size_t f) const {
-    const std::string& name = topology_.faces[f].name;
-    return "face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
-  }
+  std::string name_of(std::size_t f) const { return entity_name("face", f, topology_.faces[f].name); }
 
   [[noreturn]] void fail(std::size_t f) const {
     const patch_mesh& mesh = meshes_[f];

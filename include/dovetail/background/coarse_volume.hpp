@@ -27,7 +27,7 @@ struct coarse_volume_counts {
   std::size_t elements = 0;    ///< how many there are
   std::size_t points = 0;      ///< how many there are
   double min_dihedral_deg = 0; ///< the smallest of all
-  bool one_by_one = false;     ///< solids were filled one after the other
+  bool one_by_one = false;     ///< several solids were filled one after the other
 
   using fields = field_list<&coarse_volume_counts::elements, &coarse_volume_counts::points,
                             &coarse_volume_counts::min_dihedral_deg, &coarse_volume_counts::one_by_one>;

@@ -8,6 +8,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/mesher/element_labels.hpp"
@@ -31,10 +32,6 @@ struct oriented_boundary {
   std::vector<local_id> faces;  ///< per triangle
 };
 
-inline std::string name_of(const char* kind, local_id id, const std::string& name) {
-  return std::string(kind) + " " + std::to_string(id) + (name.empty() ? "" : " '" + name + "'");
-}
-
 inline oriented_boundary orient_boundary(const surface_mesh& surface, const geometry_topology& topology) {
   oriented_boundary boundary;
   const auto add = [&](const simplex<2>& triangle, local_id solid, local_id face) {
@@ -47,7 +44,7 @@ inline oriented_boundary orient_boundary(const surface_mesh& surface, const geom
     const local_id f = surface.mesh.tags[t];
     const auto& face = topology.faces[f];
     if (face.solids[0] == no_id && face.solids[1] == no_id)
-      throw geometry_error(name_of("face", f, face.name) + " bounds no solid; remove it from the model");
+      throw geometry_error(entity_name("face", f, face.name) + " bounds no solid; remove it from the model");
     if (face.solids[0] != no_id)
       add({a, b, c}, face.solids[0], f);
     if (face.solids[1] != no_id)
@@ -85,8 +82,8 @@ inline void require_closed(const oriented_boundary& boundary, const geometry_top
       balance += passages[last].direction;
     if (balance != 0) {
       const auto& [solid, edge, direction, face] = passages[first];
-      throw geometry_error("the surface of " + name_of("solid", solid, topology.solids[solid].name) +
-                           " is open at an edge of " + name_of("face", face, topology.faces[face].name));
+      throw geometry_error("the surface of " + entity_name("solid", solid, topology.solids[solid].name) +
+                           " is open at an edge of " + entity_name("face", face, topology.faces[face].name));
     }
     first = last;
   }
@@ -122,7 +119,7 @@ inline subdomain_input piece_of_boundary(const surface_mesh& surface, const orie
 [[noreturn]] inline void throw_failed(const std::vector<piece_failure>& failures,
                                       const geometry_topology& topology) {
   const piece_failure& first = failures.front();
-  std::string text = name_of("solid", first.subdomain, topology.solids[first.subdomain].name) +
+  std::string text = entity_name("solid", first.subdomain, topology.solids[first.subdomain].name) +
                      " could not be filled with a coarse mesh: " + joined_reasons(first.reasons);
   if (first.crossing_facets > 0)
     text += "; " + std::to_string(first.crossing_facets) + " of its surface triangles cross others";
@@ -177,7 +174,7 @@ DOVETAIL_INLINE coarse_volume_result fill_solids(const surface_mesh& surface,
   result.summary.set(coarse_volume_counts{.elements = result.mesh.elements.size(),
                                           .points = result.mesh.points.size(),
                                           .min_dihedral_deg = result.quality.min_dihedral_deg,
-                                          .one_by_one = one_by_one});
+                                          .one_by_one = one_by_one && topology.solids.size() > 1});
   result.summary.warnings = made.summary.warnings;
   result.summary.children.push_back(std::move(made.summary));
   return result;

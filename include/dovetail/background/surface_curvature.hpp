@@ -14,8 +14,8 @@ namespace dovetail::background {
 
 /// How curvature becomes size.
 struct curvature_rule {
-  double turn = 0.785398163397448; ///< turn of the normal per edge, in radians
-  double smallest_fraction = 0.1;  ///< curvature asks for no less than this times the given size
+  double turn;              ///< of the normal per edge, in radians
+  double smallest_fraction; ///< curvature asks for no less than this times the given size
 };
 
 /// Balls where curvature asks for a smaller size than `sizing` gives, as dense as the size found there.

@@ -8,6 +8,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/nearest_point.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 
@@ -134,13 +135,11 @@ private:
     return hull;
   }
   static std::array<local_id, 2> edge_of(const simplex<2>& t, std::size_t k) {
-    const local_id a = t[k], b = t[(k + 1) % 3];
-    return {std::min(a, b), std::max(a, b)};
+    return sorted_vertices(simplex<1>{t[k], t[(k + 1) % 3]});
   }
 
   std::string name_of(local_id curve) const {
-    const std::string& name = topology_.curves[curve].name;
-    return "curve " + std::to_string(curve) + (name.empty() ? "" : " '" + name + "'");
+    return entity_name("curve", curve, topology_.curves[curve].name);
   }
 
   /// The points of the hull on each curve, from its first vertex to its last, joined by edges.
@@ -193,8 +192,7 @@ private:
         edges.insert(edge_of(t, k));
     for (std::size_t c = 0; c < chains_.size(); ++c)
       for (std::size_t i = 0; i + 1 < chains_[c].size(); ++i) {
-        const local_id a = chains_[c][i], b = chains_[c][i + 1];
-        const std::array<local_id, 2> edge{std::min(a, b), std::max(a, b)};
+        const simplex<1> edge = sorted_vertices(simplex<1>{chains_[c][i], chains_[c][i + 1]});
         if (edge[0] == no_id || !edges.contains(edge))
           throw mesher_error("the background mesher did not keep " + name_of(static_cast<local_id>(c)) +
                              " as a line; use one that keeps the boundary, or a smaller coarse size");

@@ -5,22 +5,24 @@
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
+#include <array>
 #include <span>
 
 namespace dovetail {
 
 /// The CAD as a mesh sees it: triangles on its faces, oriented outwards, and edges on its curves.
 struct cad_mesh {
-  std::span<const vec3> points;            ///< of the mesh
-  std::span<const simplex<2>> triangles;   ///< on CAD faces, oriented outwards
-  std::span<const local_id> faces;         ///< per triangle: its CAD face, or no_id inside the domain
-  std::span<const simplex<1>> curve_edges; ///< on CAD curves
-  std::span<const local_id> curves;        ///< per edge
+  std::span<const vec3> points;                    ///< of the mesh
+  std::span<const simplex<2>> triangles;           ///< on CAD faces, oriented outwards
+  std::span<const local_id> faces;                 ///< per triangle: its CAD face, or no_id inside the domain
+  std::span<const std::array<local_id, 2>> beside; ///< per triangle: what is behind and in front, or no_id
+  std::span<const simplex<1>> curve_edges;         ///< on CAD curves
+  std::span<const local_id> curves;                ///< per edge
 };
 
 /// The CAD as the triangles and edges of a fine skeleton show it.
 inline cad_mesh cad_of(const fine_skeleton& fine) {
-  return {fine.points, fine.sides, fine.side_hosts, fine.curve_edges, fine.curves};
+  return {fine.points, fine.sides, fine.side_hosts, fine.subdomains, fine.curve_edges, fine.curves};
 }
 
 /// Names the CAD entities at each small angle of D = 3, and those that force it, whose cause becomes

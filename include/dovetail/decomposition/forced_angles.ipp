@@ -138,7 +138,7 @@ private:
     sharp_at_ = by_vertex(sharp_);
   }
 
-  /// The angle between two triangles at their edge; 360 where the domain is not between them.
+  /// The angle between two triangles at their edge; 360 where nothing is between them.
   double opening(const edge_of_triangle& a, const edge_of_triangle& b) const {
     const vec3 origin = point(a.edge[0]), axis = normalized(point(a.edge[1]) - origin);
     const auto leaves = [&](const edge_of_triangle& of) {
@@ -152,7 +152,8 @@ private:
       return cross(p[1] - p[0], p[2] - p[0]);
     };
     const vec3 to_a = leaves(a), to_b = leaves(b);
-    if (dot(normal(a), to_b) > 0 && dot(normal(b), to_a) > 0) // as seen from outside
+    const bool in_front = dot(normal(a), to_b) > 0 && dot(normal(b), to_a) > 0;
+    if (in_front && (cad_.beside[a.triangle][1] == no_id || cad_.beside[b.triangle][1] == no_id))
       return 360;
     return degrees_per_radian * angle_between(to_a, to_b);
   }

@@ -123,15 +123,11 @@ private:
       for (const local_id s : g.supers) {
         if (parts_.part_of(s) == g.part || !is_beside(s, g.part))
           continue;
-        std::vector<local_id> group{s};
-        if (!parts_.keeps_connected(group)) {
-          const std::vector<local_id> cut_off = parts_.components_cut_off_by(group);
-          append(group, cut_off);
-          if (!parts_.is_light(parts_.weight_of(cut_off), g.part) || !parts_.keeps_connected(group))
-            continue;
-        }
-        parts_.assign(group, g.part);
-        append(changed, group);
+        const auto group = parts_.with_cut_off({s}, g.part);
+        if (!group)
+          continue;
+        parts_.assign(*group, g.part);
+        append(changed, *group);
         progress = true;
       }
     }

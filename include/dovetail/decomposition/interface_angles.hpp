@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -57,20 +58,19 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 /// The interface angles of a fine skeleton: between triangles, around their edges; those on CAD faces and on
 /// the boundary are fixed. `refused`: not zero for triangles on a coarse side that the bound refused to
 /// remove; may be empty. `half_edges`: only the dihedrals at these edges are measured, given as 3 t + k for
-/// side k of triangle t, all of an edge or none; all when it is empty. `sides` in the result are triangles.
-/// About linear. Throws `mesh_error` for points that do not exist or are not finite, for a triangle that is
-/// flat or there twice, and where the subdomains around an edge contradict each other since a triangle is
-/// turned over; not looked for in a skeleton that is `valid`.
-/// \param fine the remeshed skeleton
+/// side k of triangle t, all of an edge or none; all when none are given. `sides` in the result are
+/// triangles. About linear. Throws `mesh_error` for points that do not exist or are not finite, for a
+/// triangle that is flat or there twice, and where the subdomains around an edge contradict each other since
+/// a triangle is turned over; not looked for in a skeleton that is `valid`. \param fine the remeshed skeleton
 /// \param wanted the angles below which one is a violation, in degrees
 /// \param refused one per triangle, or empty
-/// \param half_edges those to measure, or empty
+/// \param half_edges those to measure; all of them unless given
 /// \param skeleton_is `mesh_state::valid` skips the checks of a skeleton known to be valid
 /// \param share which triangles and edges to measure, as one of several tasks; of `half_edges` those of
 /// other shares may be left out. Throws `usage_error` where there is no such share
 interface_angles measure_skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
                                          std::span<const std::uint8_t> refused = {},
-                                         std::span<const std::uint32_t> half_edges = {},
+                                         std::optional<std::span<const std::uint32_t>> half_edges = {},
                                          mesh_state skeleton_is = mesh_state::unknown,
                                          angle_share share = {});
 

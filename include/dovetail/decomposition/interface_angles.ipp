@@ -105,7 +105,7 @@ private:
       return std::find_if(codes.begin(), codes.end(), [&](auto code) { return has(code, is_wanted); });
     };
     if (first([&](local_id side) { return is_interface_[side]; }) == codes.end())
-      return;                   // nor is the last side of an open fan one: it is fixed
+      return;                   // no interface here; an open fan ends at a fixed side
     auto begin = codes.begin(); // of an open fan a fixed side
     if (is_closed) {
       begin = first([&](local_id side) { return is_fixed(side); });
@@ -177,8 +177,8 @@ inline std::size_t share_of_edge(const fine_skeleton& fine, std::uint32_t half_e
 class skeleton_angles {
 public:
   skeleton_angles(const fine_skeleton& fine, const wanted_angles& wanted,
-                  std::span<const std::uint8_t> refused, std::span<const std::uint32_t> half_edges,
-                  mesh_state skeleton_is)
+                  std::span<const std::uint8_t> refused,
+                  std::optional<std::span<const std::uint32_t>> half_edges, mesh_state skeleton_is)
       : fine_(fine), collector_(wanted), refused_(refused), half_edges_(half_edges),
         is_known_(skeleton_is == mesh_state::valid) {
     if (!is_known_)
@@ -198,8 +198,9 @@ public:
       if (share_of_edge(fine_, h, share.of) == share.number)
         its.push_back(h);
     };
-    std::for_each(half_edges_.begin(), half_edges_.end(), take);
-    if (half_edges_.empty())
+    if (half_edges_)
+      std::for_each(half_edges_->begin(), half_edges_->end(), take);
+    else
       for (std::size_t h = 0; h < 3 * triangles; ++h)
         take(static_cast<std::uint32_t>(h));
     const auto shares = static_cast<local_id>(share.of), number = static_cast<local_id>(share.number);
@@ -242,7 +243,7 @@ private:
       if (collinear(at(vertices[0]), at(vertices[1]), at(vertices[2])))
         refuse_mesh(who, triangle + " is flat: its area is 0; remove it or move a point of it");
     }
-    for (const std::uint32_t h : half_edges_)
+    for (const std::uint32_t h : half_edges_.value_or(std::span<const std::uint32_t>()))
       if (h / 3 >= fine_.sides.size())
         throw usage_error("measure_skeleton_angles: there is no half edge " + std::to_string(h) + " of " +
                           std::to_string(fine_.sides.size()) + " triangles");
@@ -338,9 +339,9 @@ private:
   const fine_skeleton& fine_;
   angle_collector collector_;
   std::span<const std::uint8_t> refused_;
-  std::span<const std::uint32_t> half_edges_;
-  bool is_known_;           ///< to be valid
-  std::vector<flap> flaps_; ///< scratch
+  std::optional<std::span<const std::uint32_t>> half_edges_; ///< all unless given
+  bool is_known_;                                            ///< to be valid
+  std::vector<flap> flaps_;                                  ///< scratch
 };
 
 } // namespace detail
@@ -350,11 +351,9 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
   return detail::mesh_angles<D>(given, wanted).run();
 }
 
-DOVETAIL_INLINE interface_angles measure_skeleton_angles(const fine_skeleton& fine,
-                                                         const wanted_angles& wanted,
-                                                         std::span<const std::uint8_t> refused,
-                                                         std::span<const std::uint32_t> half_edges,
-                                                         mesh_state skeleton_is, angle_share share) {
+DOVETAIL_INLINE interface_angles measure_skeleton_angles(
+    const fine_skeleton& fine, const wanted_angles& wanted, std::span<const std::uint8_t> refused,
+    std::optional<std::span<const std::uint32_t>> half_edges, mesh_state skeleton_is, angle_share share) {
   if (share.number >= share.of)
     throw usage_error("measure_skeleton_angles: there is no share " + std::to_string(share.number) + " of " +
                       std::to_string(share.of));

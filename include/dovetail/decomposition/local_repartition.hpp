@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -32,7 +34,7 @@ public:
   /// earlier calls and moves interfaces away from them, at the least penalty of what then lies between parts.
   /// Parts stay connected, of one material and as manifold as they are, and gain little weight where others
   /// can. A place where that is not possible stays as it is. `parts` are those of `part_of_element`, which
-  /// may have been merged since the decomposition. Returns the number of super-elements that went. Linear
+  /// may have been merged since the decomposition. Returns how many super-elements changed their part. Linear
   /// in the mesh, and quadratic in the places.
   std::size_t avoid(std::span<const std::vector<local_id>> places, std::vector<local_id>& part_of_element,
                     local_id parts) {
@@ -50,6 +52,7 @@ public:
     if (!supers_)
       supers_ = std::make_shared<const super_element_points<D>>(mesh_, sides_, pieces_.super_of_element,
                                                                 part.size());
+    const std::vector<local_id> before = part;
     reassignable_parts<D> reassignable(supers_, pieces_.graph, part, std::move(limits));
     manifold_repair<D> repair(reassignable);
     for (const auto& place : places_)
@@ -57,7 +60,8 @@ public:
         avoid(place, reassignable, repair);
     for (std::size_t e = 0; e < part_of_element.size(); ++e)
       part_of_element[e] = part[super_of(e)];
-    return reassignable.assignments();
+    return std::transform_reduce(part.begin(), part.end(), before.begin(), std::size_t{0}, std::plus{},
+                                 [](local_id now, local_id then) { return std::size_t{now != then}; });
   }
 
   /// No move is made for these places any more. Returns whether there was one for which some might be.
@@ -155,21 +159,18 @@ private:
 
   /// Whether it can be made and more places are avoided then; it is made, with all that it entails.
   bool make(const move& wanted, reassignable_parts<D>& parts, manifold_repair<D>& repair) const {
-    std::vector<local_id> supers = wanted.supers;
-    if (!parts.keeps_connected(supers)) {
-      append(supers, parts.components_cut_off_by(supers));
-      if (!parts.is_light(parts.weight_of(supers), wanted.to) || !parts.keeps_connected(supers))
-        return false;
-    }
+    const auto supers = parts.with_cut_off(wanted.supers, wanted.to);
+    if (!supers)
+      return false;
     const std::size_t avoided_before = avoided(parts);
     const auto before = parts.mark();
     const auto adds_defects = [&] {
       const defect_count added = parts.standing().defects - before.standing.defects;
       return added.edges > 0 || added.points > 0;
     };
-    parts.assign(supers, wanted.to);
+    parts.assign(*supers, wanted.to);
     if (adds_defects())
-      repair.repair(parts.points_of(supers), most_reassigned - std::min(most_reassigned, supers.size()));
+      repair.repair(parts.points_of(*supers), most_reassigned - std::min(most_reassigned, supers->size()));
     if (!adds_defects() && avoided(parts) > avoided_before)
       return true;
     parts.go_back_to(before);

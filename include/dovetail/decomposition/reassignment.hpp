@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -108,6 +109,17 @@ public:
   bool is_light(double weight, local_id part) const {
     constexpr double light_fraction = 0.1;
     return weight <= light_fraction * limit_of_part(part);
+  }
+  /// Super-elements of one part with those that they cut off from it, which may go to another part; nothing
+  /// where these are heavy, or all of the part.
+  std::optional<std::vector<local_id>> with_cut_off(std::vector<local_id> supers, local_id to) {
+    if (keeps_connected(supers))
+      return supers;
+    const std::vector<local_id> cut_off = components_cut_off_by(supers);
+    append(supers, cut_off);
+    if (!is_light(weight_of(cut_off), to) || !keeps_connected(supers))
+      return std::nullopt;
+    return supers;
   }
   /// Whether a part is overweight.
   bool is_over_limit(local_id part) const { return weights_[part] > limits_[part]; }

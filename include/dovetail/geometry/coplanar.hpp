@@ -14,6 +14,9 @@
 
 namespace dovetail {
 
+/// Of planes in which chords and triangles of two faces could coincide.
+inline constexpr double coplanar_tolerance = 1e-6;
+
 /// Whether two planes have the same normal but for its sign, and the points of both frames are in both.
 /// \param tolerance of the sine of the angle between them, and of lengths as a share of `extent`
 /// \param extent a length, as that of the model's diagonal

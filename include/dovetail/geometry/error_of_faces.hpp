@@ -1,15 +1,23 @@
 /// @file
-/// Errors that say which faces of a model are to blame.
+/// Errors that say which faces of a model are to blame, and how entities are called in messages.
 #pragma once
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/mesh/simplex.hpp"
 
+#include <concepts>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace dovetail {
+
+/// A face, curve or solid of a model in messages: its number, and its name if it has one.
+/// \param kind "face", "curve" or "solid"
+template <std::integral Number>
+std::string entity_name(const char* kind, Number number, const std::string& name) {
+  return std::string(kind) + " " + std::to_string(number) + (name.empty() ? "" : " (" + name + ")");
+}
 
 /// What an error of the library also is when faces of the model are to blame: who has simplified the model
 /// may catch it, and keep these as they were drawn.

@@ -19,10 +19,7 @@
 namespace dovetail {
 
 DOVETAIL_INLINE void throw_crossing_faces(const geometry_topology& topology, std::array<local_id, 2> faces) {
-  const auto name = [&](local_id f) {
-    const std::string& given = topology.faces[f].name;
-    return "face " + std::to_string(f) + (given.empty() ? "" : " '" + given + "'");
-  };
+  const auto name = [&](local_id f) { return entity_name("face", f, topology.faces[f].name); };
   throw error_of_faces<intersection_error>(
       (faces[0] == faces[1] ? "the surface of " + name(faces[0]) + " crosses itself or stays folded over"
                             : "the surfaces of " + name(faces[0]) + " and " + name(faces[1]) + " cross") +

@@ -44,7 +44,7 @@ struct skeleton_face {
 /// All that is between subdomains, in coarse entities.
 struct coarse_skeleton {
   std::vector<skeleton_line> lines;     ///< sorted by `vertices`
-  std::vector<skeleton_region> regions; ///< by their CAD face and subdomains
+  std::vector<skeleton_region> regions; ///< by their first triangle
   std::vector<skeleton_face> faces;     ///< sorted by key
 };
 

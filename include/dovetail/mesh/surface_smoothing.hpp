@@ -55,7 +55,7 @@ public:
       const vec3 x = s_.tangent(v), y = cross(n, x);
       bool better = false;
       for (int k = 0; k < 6 && !better; ++k) {
-        const double angle = 1.0471975511965976 * (k + 0.5 * (round % 2));
+        const double angle = std::numbers::pi / 3 * (k + 0.5 * (round % 2));
         better = try_step(v, reach * (std::cos(angle) * x + std::sin(angle) * y), worst_rule{}, now);
       }
       any = any || better;

@@ -27,8 +27,7 @@ public:
     return outcomes;
   }
 
-  /// Tasks that the limit has stopped so far, or one within them: what was done instead, the clock has
-  /// decided.
+  /// Tasks that this limit, or one within them, has stopped so far; what replaced them depends on the clock.
   int stops() const { return *stops_; }
 
 private:

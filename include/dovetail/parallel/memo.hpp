@@ -45,9 +45,10 @@ struct made_batch {
 
 } // namespace detail
 
-/// Results of one type, each made once. Consecutive ones that are missing make a batch, which is one task and
-/// is kept as a whole under the names of its members, so a resumed run, where the same ones are missing,
-/// finds it again. Here are only names: 40 bytes per result, and the batches where the run has no disk.
+/// Results of one type, each made once, if a call names it once. Consecutive ones that are missing make a
+/// batch, which is one task and is kept as a whole under the names of its members, so a resumed run, where
+/// the same ones are missing, finds it again. Here are only names: 40 bytes per result, and the batches where
+/// the run has no disk.
 template <encodable Result>
 class memo {
 public:

@@ -44,7 +44,7 @@ DOVETAIL_INLINE std::vector<task_outcome> threads::run(std::size_t count, const 
     options.on_progress(options.stage, 0, count);
     std::unique_lock lock(mutex);
     while (reported < count) {
-      finished.wait_for(lock, std::chrono::milliseconds(100));
+      finished.wait_for(lock, std::chrono::milliseconds(100), [&] { return done != reported; });
       const std::size_t now = done;
       lock.unlock();
       if (now != reported)

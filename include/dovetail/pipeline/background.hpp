@@ -51,9 +51,9 @@ template <int D>
 using background_maker =
     std::function<void(background_result<D>&, const any_sizing& coarse, const any_executor& run_tasks)>;
 
-/// Plans the mesh and makes its background mesh, or finds what an earlier run has kept. For one subdomain
-/// the library's own steps make no volume: nothing is decomposed, and its mesh would serve nothing. Throws
-/// what its steps throw, all naming the CAD entity concerned. In the first form by the library's own steps.
+/// Plans the mesh and makes its background mesh, or finds what an earlier run has kept: in the first form by
+/// the library's own steps, which make no volume for one subdomain, as nothing is decomposed then. Throws
+/// what its steps throw, all naming the CAD entity concerned.
 /// About linear in the elements of the background mesh, beside its mesher.
 /// \param model the solids (D = 3) or faces (D = 2) to mesh
 /// \param size the final edge lengths, in the units of the model; coarse ones are derived

@@ -26,7 +26,7 @@ background_result<D> make_background(const any_geometry& model, const erased_siz
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
   given.run_tasks = watch;
   const generate_options& options = given.options;
-  const erased_sizing size = detail::usable_size<D>(model, given_size, given);
+  const erased_sizing size = detail::usable_size<D>(model, given_size, given).size;
   if (auto kept = find_background<D>(model, size, wanted.run_tasks)) {
     detail::require_room(kept->plan, options);
     return *std::move(kept);

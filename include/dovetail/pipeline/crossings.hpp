@@ -30,9 +30,9 @@ bool lies_in_one_plane(const any_geometry& model);
 /// All pieces as one mesh; the elements' tags are CAD faces.
 simplicial_mesh<2> joined_pieces(const simplicial_skeleton<2>& skeleton, const meshed_pieces<2>& meshed);
 
-/// Lines that cross in a region's parameter plane are made finer; if that does not help they go, with the
-/// interfaces that end on them, and so does an interface face that is folded over; where a region is, it is
-/// refined like one that crosses itself.
+/// A region that is folded over is refined there. An interface face that fails is merged away. Where lines
+/// cross in a region's parameter plane they are refined first; then the interfaces that end on those of them
+/// that are on no CAD curve are merged away.
 suppression_plan plan_for_failed_patches(const coarse_skeleton& coarse,
                                          const std::vector<patch_failure>& failures);
 

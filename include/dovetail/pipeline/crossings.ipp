@@ -27,7 +27,8 @@ DOVETAIL_INLINE bool lies_in_one_plane(const any_geometry& model) {
       return false;
     if (!first)
       first = plane;
-    if (!are_coplanar(*first, *plane, model.bounds().diagonal(), 1e-9))
+    constexpr double of_one_plane = 1e-9; // then nothing at all is tested for crossings
+    if (!are_coplanar(*first, *plane, model.bounds().diagonal(), of_one_plane))
       return false;
   }
   return true;
@@ -74,7 +75,9 @@ DOVETAIL_INLINE suppression_plan plan_for_failed_patches(const coarse_skeleton& 
     }
     for (const size_ball& edge : failure.edges)
       plan.interface_crossings.push_back({{no_id, no_id}, edge.center, edge.size});
-    if (can_go ? plan.lines_at_fault.empty() && !failure.edges.empty() : plan.merges_suffice)
+    const bool is_first_to_go = can_go && plan.lines_at_fault.empty() && !failure.edges.empty();
+    const bool is_first_to_stay = !can_go && plan.merges_suffice; // told before one that can go
+    if (is_first_to_go || is_first_to_stay)
       plan.lines_at_fault = failure.reason;
     plan.merges_suffice = plan.merges_suffice && can_go;
   }

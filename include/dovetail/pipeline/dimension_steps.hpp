@@ -18,7 +18,7 @@ namespace dovetail::detail {
 inline std::span<const local_id> materials_of(const simplicial_background<3>& mesh) {
   return mesh.volume.tags;
 }
-/// Subsurfaces may cross CAD curves.
+/// None: in D = 2 nothing is cut by material.
 inline std::span<const local_id> materials_of(const simplicial_background<2>&) {
   return {};
 }
@@ -30,8 +30,7 @@ inline std::vector<simplex<1>> edges_on_curves(const surface_mesh& surface) {
   return edges;
 }
 
-/// The simplification of a background mesh; in D = 3 that of its surface goes before. No rule is named: it is
-/// bound at compile time.
+/// The simplification of a background mesh; in D = 3 that of its surface goes before.
 template <int D, class Rule>
   requires simplification_rule<Rule, 2> && simplification_rule<Rule, D>
       simplification simplify_background(const simplicial_background<D>& mesh, const side_table<D>& sides,
@@ -62,15 +61,18 @@ interface_angles coarse_interface_angles(const simplicial_background<D>& mesh, c
                                          const any_sizing& size, const wanted_angles& wanted) {
   auto angles = measure_interface_angles<D>(
       {mesh.elements(), sides, side_states, subdomain_of_element, {}, mesh_state::valid}, wanted);
-  if constexpr (D == 3) {
-    const auto on_curves = edges_on_curves(mesh.surface);
-    std::vector<local_id> curves;
-    for (const auto& edge : mesh.surface.curve_edges)
-      curves.push_back(edge.curve);
-    find_forced(angles, sides.vertices,
-                {mesh.volume.points, mesh.surface.mesh.elements, mesh.surface.mesh.tags, on_curves, curves},
-                size, wanted);
-  }
+  if constexpr (D == 3)
+    if (!angles.violations.empty()) {
+      const auto beside = elements_beside_surface(mesh, sides);
+      const auto on_curves = edges_on_curves(mesh.surface);
+      std::vector<local_id> curves;
+      for (const auto& edge : mesh.surface.curve_edges)
+        curves.push_back(edge.curve);
+      find_forced(
+          angles, sides.vertices,
+          {mesh.volume.points, mesh.surface.mesh.elements, mesh.surface.mesh.tags, beside, on_curves, curves},
+          size, wanted);
+    }
   return angles;
 }
 

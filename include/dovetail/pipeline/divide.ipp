@@ -95,6 +95,7 @@ std::vector<local_id> partition_of(const graph_to_partition& whole, const Parame
   const progress& on_progress = given.options.on_progress;
   if (whole.graph.node_count() > given.options.partitioned_at_once) {
     partition::in_groups by_groups{given.partition_it, given.run_tasks};
+    by_groups.imbalance = largest_imbalance;
     by_groups.nodes_per_group = std::max(1, given.options.partitioned_at_once / 12);
     by_groups.on_progress = on_progress;
     return partition_components(whole, by_groups, on_progress);

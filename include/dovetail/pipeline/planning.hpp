@@ -42,8 +42,8 @@ struct mesh_plan {
   double size_scale = 1; ///< factor between final size and that given (`generate_options::enlarged_above`)
 
   using fields =
-      field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error, ///< what is stored
-                 &mesh_plan::subdomains, &mesh_plan::coarse_scale, &mesh_plan::walls, &mesh_plan::size_scale>;
+      field_list<&mesh_plan::predicted_elements, &mesh_plan::relative_error, &mesh_plan::subdomains,
+                 &mesh_plan::coarse_scale, &mesh_plan::walls, &mesh_plan::size_scale>;
 };
 
 /// The field given as the plan has it.

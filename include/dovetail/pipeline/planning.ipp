@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/background/coarse_surface.hpp"
+#include "dovetail/background/tubes.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/mesher/background_form.hpp"
@@ -21,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace dovetail {
@@ -128,13 +130,23 @@ any_sizing allowed_size(const erased_sizing& size, const std::vector<size_ball>&
 
 namespace detail {
 
-/// The field with every value looked at; throws what is known to be wrong before anything is made.
+/// Sizes that can be meshed.
+struct usable_sizes {
+  erased_sizing size;
+  bool finer_at_tubes = false; ///< than the sizes given: they are no multiple of those of another factor
+};
+
+/// The field with every value looked at, small enough for tubes; throws what is known to be wrong before
+/// anything is made.
 template <int D, bound_parameters<D> Parameters>
-erased_sizing usable_size(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
+usable_sizes usable_size(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
   require_policies(given.mesh_it, given.improve_it, given.run_tasks);
   erased_sizing checked(checked_sizing{size});
   require_usable_size(model, checked);
-  return checked;
+  auto at_tubes = background::sizes_at_tubes(model, keep_bounds(checked));
+  if (at_tubes.empty())
+    return {checked};
+  return {background::finer_at_tubes(keep_bounds(checked), std::move(at_tubes)), true};
 }
 
 /// Elements beside surfaces that turn so much within one size, or are so thin, that their triangles have to
@@ -270,31 +282,31 @@ mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, c
 
 template <int D, bound_parameters<D> Parameters>
 mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, const Parameters& given) {
-  return detail::plan_of_usable<D>(model, detail::usable_size<D>(model, size, given), given,
+  return detail::plan_of_usable<D>(model, detail::usable_size<D>(model, size, given).size, given,
                                    detail::planned::numbers);
 }
 
 template <int D, bound_parameters<D> Parameters>
 std::function<mesh_plan(double factor)> plan_multiples(const any_geometry& model, const erased_sizing& size,
                                                        const Parameters& given) {
-  const auto checked = detail::usable_size<D>(model, size, given);
-  const auto first = detail::first_surface<D>(model, checked, given);
-  const auto [elements, relative_error] = given.run_tasks.once([&] {
-    const auto predicted = detail::predict_on_surface<D>(model, checked, first, given);
+  const auto once = detail::usable_size<D>(model, size, given);
+  const auto surface_once = detail::first_surface<D>(model, once.size, given);
+  element_prediction predicted_once;
+  std::tie(predicted_once.elements, predicted_once.relative_error) = given.run_tasks.once([&] {
+    const auto predicted = detail::predict_on_surface<D>(model, once.size, surface_once, given);
     return std::pair(predicted.elements, predicted.relative_error);
   });
-  return [model, size, given, elements = elements, relative_error = relative_error](double factor) {
-    const auto multiple = detail::usable_size<D>(model, scaled(size, factor), given);
-    const auto surface = detail::first_surface<D>(model, multiple, given);
-    return given.run_tasks.once([&, elements = elements, relative_error = relative_error] {
-      element_prediction predicted;
-      if constexpr (D == 3) { // the cells of the integral are those of any multiple of the field
-        predicted.elements = elements / (factor * factor * factor);
-        predicted.relative_error = relative_error;
-      } else {
-        predicted = detail::predict_on_surface<D>(model, multiple, surface, given);
-      }
-      return detail::plan_of_prediction<D>(model, multiple, surface, predicted, given);
+  return [=](double factor) {
+    const bool is_once = factor == 1;
+    const auto multiple = is_once ? once : detail::usable_size<D>(model, scaled(size, factor), given);
+    const auto surface = is_once ? surface_once : detail::first_surface<D>(model, multiple.size, given);
+    return given.run_tasks.once([&] {
+      element_prediction predicted = predicted_once;
+      if (D == 3 && !once.finer_at_tubes && !multiple.finer_at_tubes)
+        predicted.elements /= factor * factor * factor; // the cells of the integral are those of any multiple
+      else if (!is_once)
+        predicted = detail::predict_on_surface<D>(model, multiple.size, surface, given);
+      return detail::plan_of_prediction<D>(model, multiple.size, surface, predicted, given);
     });
   };
 }

@@ -83,7 +83,7 @@ public:
   std::optional<realized<D>> realize_boundaries() {
     for (;;) {
       auto made = realize_once();
-      if (repaired_by([&] { return crossings_of(boundaries_plan(made)); }))
+      if (repaired_by([&] { return crossings_of(boundaries_plan(made, counts_)); }))
         continue;
       if (!too_many_merges_.empty())
         return {};
@@ -132,8 +132,8 @@ private:
     return (does(steps) || ...);
   }
 
-  suppression_plan boundaries_plan(const realized<D>& made) {
-    return plan_for_boundaries(made, made_, given_, counts_, account_.seconds);
+  suppression_plan boundaries_plan(const realized<D>& made, intersection_counts& counts) {
+    return plan_for_boundaries(made, made_, given_, counts, account_.seconds);
   }
   std::optional<repair> crossings_of(const suppression_plan& plan) const {
     return repair_of_crossings(plan, state_, model_.topology(), given_.options.refinement_rounds);
@@ -178,12 +178,15 @@ private:
         return counted(realize_part(model_, mesh_, divided_, subdomain_of_element, subdomains(), state_.size,
                                     made_, given_, is_wanted));
       };
+      intersection_counts of_trials; // which are taken back where something crosses
       const std::size_t lines_before = made_.lines.made() - made.counts.lines_made;
       const std::size_t patches_before = made_.patches.meshes.made() - made.counts.patches_made;
       made = repartition_.avoid_small_angles(
           std::move(made), state_.subdomain_of_element, state_.merges.subdomains(),
           [&] { return realize_once(); }, realize_part_of,
-          [&](const realized<3>& made_so) { return places_of_crossings(boundaries_plan(made_so)); },
+          [&](const realized<3>& made_so) {
+            return places_of_crossings(boundaries_plan(made_so, of_trials));
+          },
           [&](const realized<3>& made_so) { return small_angles_of(made_so); }, account_.seconds);
       made.counts.lines_made = made_.lines.made() - lines_before;
       made.counts.patches_made = made_.patches.meshes.made() - patches_before;

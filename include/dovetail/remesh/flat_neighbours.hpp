@@ -44,7 +44,8 @@ public:
       return false;
     return std::any_of(at_p->second.begin(), at_p->second.end(), [&](local_id f) {
       return std::any_of(at_q->second.begin(), at_q->second.end(), [&](local_id g) {
-        return f == g || are_coplanar(*plane_of(f), *plane_of(g), model_.bounds().diagonal(), 1e-6);
+        return f == g ||
+               are_coplanar(*plane_of(f), *plane_of(g), model_.bounds().diagonal(), coplanar_tolerance);
       });
     });
   }

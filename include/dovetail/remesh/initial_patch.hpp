@@ -5,6 +5,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/surface_operations.hpp"
+#include "dovetail/remesh/delaunay_flips.hpp"
 #include "dovetail/remesh/patch_state.hpp"
 
 #include <algorithm>
@@ -181,24 +182,6 @@ void unfold(patch_state<S>& s, flip_queue& flips) {
   }
 }
 
-/// Makes the patch Delaunay in the scaled parameter plane around the queued corners.
-template <class S>
-void make_plane_delaunay(patch_state<S>& s, std::vector<local_id>& queue) {
-  while (!queue.empty()) {
-    const local_id c = queue.back();
-    queue.pop_back();
-    if (!s.table.free_side(c))
-      continue;
-    const local_id d = s.table.twin[c];
-    if (in_circle(s.xy[s.table.vertex[c]], s.xy[s.table.tail(c)], s.xy[s.table.head(c)],
-                  s.xy[s.table.vertex[d]]) <= 0)
-      continue;
-    s.table.flip(c);
-    for (const local_id e : {c, corner_table::previous(c), d, corner_table::previous(d)})
-      queue.push_back(e);
-  }
-}
-
 /// Splits edges until none bridges strong curvature; afterwards lengths and angles in 3-space mean something.
 template <class S>
 void resolve_curvature(patch_state<S>& s) {
@@ -222,7 +205,8 @@ void resolve_curvature(patch_state<S>& s) {
         continue;
       s.size[v] = s.target_size(s.point[v]);
       s.table.for_each_corner(v, [&](local_id e) { queue.push_back(e); });
-      make_plane_delaunay(s, queue);
+      flip_to_delaunay(
+          s.table, [&](local_id at) { return s.xy[at]; }, queue);
       any = true;
     }
     if (!any)

@@ -5,6 +5,7 @@
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/mesh/surface_smoothing.hpp"
 #include "dovetail/remesh/frontal_fill.hpp"
 #include "dovetail/remesh/initial_patch.hpp"
@@ -278,12 +279,11 @@ private:
         v = number[v];
       mesh.triangles.push_back(triangle);
     }
-    constexpr double degrees = 57.29577951308232;
     const double count = static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
     mesh.summary.set(
         remeshed_counts{.triangles = mesh.triangles.size(),
-                        .min_angle_deg = least > 0 ? degrees * std::asin(std::sqrt(least)) : 0,
-                        .mean_min_angle_deg = degrees * angle_sum / count,
+                        .min_angle_deg = least > 0 ? degrees_per_radian * std::asin(std::sqrt(least)) : 0,
+                        .mean_min_angle_deg = degrees_per_radian * angle_sum / count,
                         .below_30_deg = below_thirty,
                         .mean_relative_length =
                             lengths > 0 ? State::calibration * length_sum / static_cast<double>(lengths) : 1,

@@ -9,6 +9,7 @@
 #include "dovetail/core/predicates.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/corner_table.hpp"
+#include "dovetail/remesh/delaunay_flips.hpp"
 
 #include <algorithm>
 #include <array>
@@ -62,18 +63,8 @@ public:
   /// Flips the sides opposite the queued corners, and those their flips expose, until all are Delaunay or
   /// constrained. Empties the queue.
   void restore_delaunay(std::vector<local_id>& corners) {
-    while (!corners.empty()) {
-      const local_id c = corners.back();
-      corners.pop_back();
-      if (!table.free_side(c))
-        continue;
-      const local_id d = table.twin[c];
-      if (in_circle(corner_xy(c), xy(table.tail(c)), xy(table.head(c)), corner_xy(d)) <= 0)
-        continue;
-      table.flip(c); // inside the circle implies strictly convex
-      for (const local_id e : {c, corner_table::previous(c), d, corner_table::previous(d)})
-        corners.push_back(e);
-    }
+    flip_to_delaunay(
+        table, [&](local_id vertex) { return xy(vertex); }, corners);
   }
 
 private:

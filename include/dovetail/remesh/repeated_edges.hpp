@@ -13,11 +13,7 @@
 
 namespace dovetail::detail {
 
-using label_pair = std::array<local_id, 2>;
-
-inline label_pair ordered(local_id a, local_id b) {
-  return a < b ? label_pair{a, b} : label_pair{b, a};
-}
+using label_pair = simplex<1>;
 
 /// Counts, per pair of labels, the different edges of 3-space that join them, and returns the chords that
 /// must be split to leave at most one. A triangle on a pole has two sides that are one edge of 3-space.
@@ -25,9 +21,9 @@ template <class S>
 std::vector<local_id> repeated_chords(const patch_state<S>& s, const patch_boundary& boundary) {
   std::map<label_pair, int> edges;
   for (const auto& [a, b] : boundary.segments)
-    edges[ordered(s.label[a], s.label[b])] = 1;
+    edges[sorted_vertices(label_pair{s.label[a], s.label[b]})] = 1;
   for (const label_pair& pair : boundary.forbidden_edges)
-    edges[ordered(pair[0], pair[1])] = 1;
+    edges[sorted_vertices(label_pair{pair[0], pair[1]})] = 1;
   const auto is_chord = [&](local_id c) {
     return s.table.free_side(c) && !s.inner(s.table.tail(c)) && !s.inner(s.table.head(c));
   };
@@ -37,18 +33,18 @@ std::vector<local_id> repeated_chords(const patch_state<S>& s, const patch_bound
       continue;
     const local_id a = s.table.tail(c), b = s.table.head(c);
     if (is_chord(c) && s.table.twin[c] > c)
-      ++edges[ordered(s.label[a], s.label[b])];
+      ++edges[sorted_vertices(label_pair{s.label[a], s.label[b]})];
     // The apex of a vanishing triangle sees both its sides as one edge.
     const local_id apex = s.table.vertex[c];
     if (!s.inner(apex) && s.pole[a] && s.pole[b] && s.label[a] == s.label[b])
-      --edges[ordered(s.label[apex], s.label[a])];
+      --edges[sorted_vertices(label_pair{s.label[apex], s.label[a]})];
   }
   std::vector<local_id> repeated;
   for (local_id c = 0; c < corners; ++c) {
     if (s.table.vertex[c] == no_id || !is_chord(c) || s.table.twin[c] < c)
       continue;
     const local_id a = s.label[s.table.tail(c)], b = s.label[s.table.head(c)];
-    if (a == b || edges[ordered(a, b)] > 1)
+    if (a == b || edges[sorted_vertices(label_pair{a, b})] > 1)
       repeated.push_back(c);
   }
   return repeated;
@@ -76,7 +72,8 @@ void separate_repeated_edges(patch_state<S>& s, const patch_boundary& boundary, 
       smooth.maximise_worst(v);
   }
   for (const local_id c : repeated_chords(s, boundary))
-    mesh.repeated_edges.push_back(ordered(s.label[s.table.tail(c)], s.label[s.table.head(c)]));
+    mesh.repeated_edges.push_back(
+        sorted_vertices(label_pair{s.label[s.table.tail(c)], s.label[s.table.head(c)]}));
 }
 
 } // namespace dovetail::detail

@@ -63,7 +63,8 @@ public:
       if (is_fixed(each.side))
         continue;
       const deficit& missed = each.decision.missed;
-      if (!(missed.value >= 0) || !(missed.wanted >= 0) || std::isinf(missed.wanted))
+      if (!(missed.value >= 0) || !(missed.wanted >= 0) || std::isinf(missed.value) ||
+          std::isinf(missed.wanted))
         throw usage_error("the simplification rule propagates to side " + std::to_string(each.side) +
                           " since it misses " + number_text(missed.wanted) + " by being " +
                           number_text(missed.value) + "; both must be finite and not negative");
@@ -87,13 +88,16 @@ public:
         first.push_back({runs_.angle(w), w});
     queue_ = dihedral_queue(std::greater<>(), std::move(first));
     queue_is_open_ = true;
-    while (!queue_.empty()) {
-      poll();
-      const auto [angle, w] = queue_.top();
-      queue_.pop();
-      if (runs_.is_end(w) && runs_.angle(w) == angle) // else an older state of a run that has grown
-        treat_dihedral(w, angle);
-    }
+    do {
+      while (!queue_.empty()) {
+        poll();
+        const auto [angle, w] = queue_.top();
+        queue_.pop();
+        if (runs_.is_end(w) && runs_.angle(w) == angle) // else an older state of a run that has grown
+          treat_dihedral(w, angle);
+      }
+      remove_refused_sides_inside();
+    } while (!queue_.empty());
   }
 
   simplification result() {
@@ -220,9 +224,25 @@ private:
       forced_.push_back({{std::min(a, b), std::max(a, b)}, angle});
       return;
     }
-    if (is_refused(a) || is_refused(b))
+    if (is_refused(a) || is_refused(b)) {
+      beside_refused_.push_back(w);
       return;
+    }
     remove_or_refuse(which_goes(a, b), {angle, judged_.wanted_angle_deg});
+  }
+
+  /// A side that was only to be penalised may have become internal since a dihedral at it was left alone:
+  /// the dihedrals joined there may be small, too.
+  void remove_refused_sides_inside() {
+    for (const dihedral_id w : std::exchange(beside_refused_, {})) {
+      if (!runs_.is_end(w))
+        continue;
+      const auto [a, b] = runs_.bounding_sides(w);
+      if (is_internal(a) || is_internal(b))
+        remove(is_internal(a) ? a : b);
+      else
+        beside_refused_.push_back(w);
+    }
   }
 
   local_id which_goes(local_id a, local_id b) {
@@ -309,7 +329,8 @@ private:
   double bound_;
   std::vector<forced_dihedral> forced_;
   dihedral_queue queue_;
-  bool queue_is_open_ = false; ///< before S2 the queue is not filled
+  bool queue_is_open_ = false;              ///< before S2 the queue is not filled
+  std::vector<dihedral_id> beside_refused_; ///< small ones that were left alone
   const progress& on_progress_;
   std::size_t steps_ = 0;
 };

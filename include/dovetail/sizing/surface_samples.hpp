@@ -49,6 +49,12 @@ public:
       sample_face(static_cast<local_id>(f));
     return std::move(samples_);
   }
+  /// Those of one face.
+  std::vector<surface_sample> run(local_id face) {
+    samples_.clear();
+    sample_face(face);
+    return std::move(samples_);
+  }
 
 private:
   static constexpr int outline_parts = 32;

@@ -118,9 +118,8 @@ public:
       total_ = 0;
   }
 
-  double triangles() const {
-    return elements_per_unit<2> * total_;
-  } ///< of the mesh on it; 0 if none is sampled
+  /// Of the mesh on it; 0 if none is sampled.
+  double triangles() const { return elements_per_unit<2> * total_; }
 
   /// Visits about so many samples. Thicknesses are looked for up to `reach` times the size.
   template <class Visit>

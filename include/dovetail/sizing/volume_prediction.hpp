@@ -140,7 +140,7 @@ element_prediction predict_volume_elements(const simplicial_mesh<2>& closed_surf
   const inside_surface inside(closed_surface);
   const box3 bounds = inside.bounds();
   const vec3 extent = bounds.upper - bounds.lower;
-  const double largest_unsampled = bounds.diagonal() / 24;
+  const double largest_unsampled = sizing::largest_unsampled(bounds);
   const double enclosed = inside.signed_volume_inside();
   sizing::sample_sequence random;
 

@@ -67,12 +67,11 @@ DOVETAIL_INLINE chord_rule::chord_rule(const any_geometry& model, const coarse_s
                                        const simplicial_skeleton<2>& fine, const numbered_lines& lines,
                                        const surface_mesh& surface)
     : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()) {
-  constexpr double tolerance = 1e-6;
   std::vector<std::optional<surface_frame>> planes;
   planes.reserve(skeleton.regions.size());
   for (const skeleton_region& region : skeleton.regions)
     planes.push_back(model.plane_of_face(region.cad_face));
-  plane_of_ = plane_numbers(planes, model.bounds().diagonal(), tolerance);
+  plane_of_ = plane_numbers(planes, model.bounds().diagonal(), coplanar_tolerance);
   for (simplex<1>& edge : edges_)
     edge = sorted_vertices(edge);
   sort_unique(edges_);

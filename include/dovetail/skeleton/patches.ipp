@@ -91,83 +91,103 @@ inline plane_triangle in_parameter_plane(const surface_mesh& surface, local_id t
   return seen;
 }
 
-/// An inner edge of a region as one of its triangles passes it, by coarse vertices.
-struct inner_passage {
-  std::array<local_id, 2> vertices;
-  std::array<vec2, 2> uv;
+/// The trimmed representation of a region: its triangles are passed in the parameter plane, and what lines
+/// have on their edges is the boundary.
+class region_boundary {
+public:
+  region_boundary(const any_geometry& model, const surface_mesh& surface, const skeleton_region& region,
+                  const numbered_lines& lines)
+      : model_(model), surface_(surface), region_(region), lines_(lines), patch_(lines.points) {}
+
+  skeleton_patch patch() {
+    const bool reversed = model_.topology().faces[region_.cad_face].reversed;
+    for (const local_id triangle : region_.triangles)
+      pass_triangle(in_parameter_plane(surface_, triangle, reversed));
+    return patch_.take();
+  }
+
+private:
+  /// An edge of a coarse triangle, as the triangle passes it.
+  struct passage {
+    std::array<local_id, 2> ends;
+    std::array<vec2, 2> uv;
+  };
+
+  void pass_triangle(const plane_triangle& seen) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      pass_edge({{seen.vertices[i], seen.vertices[j]}, {seen.uv[i], seen.uv[j]}});
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+      if (std::binary_search(region_.fixed_points.begin(), region_.fixed_points.end(), seen.vertices[i]))
+        patch_.vertex(lines_.number_of(seen.vertices[i]), seen.uv[i]);
+  }
+
+  void pass_edge(const passage& edge) {
+    if (const local_id line = find_line(lines_.keys, edge.ends[0], edge.ends[1]); line != no_id) {
+      pass_line(line, edge);
+      return;
+    }
+    const auto [found, is_new] = inner_.try_emplace(sorted_vertices(edge.ends), edge);
+    if (!is_new)
+      close_pole(found->second, edge);
+  }
+
+  void pass_line(local_id line, const passage& edge) {
+    const auto l = static_cast<std::size_t>(line);
+    const skeleton_line& key = lines_.keys[l];
+    const bool forward = edge.ends[0] == key.vertices[0];
+    const auto numbers = lines_.along(line, edge.ends[0]);
+    const std::array key_uv = forward ? edge.uv : std::array{edge.uv[1], edge.uv[0]};
+    const local_id coedge =
+        key.on.dimension == 1 ? coedge_beside(model_, region_.cad_face, key.on.id, key.t, key_uv) : no_id;
+    const auto inner_uv = [&](std::size_t i) { // i counts in key order
+      return coedge == no_id
+                 ? lines_.lines[l].uv[i]
+                 : model_.curve_uv(region_.cad_face, static_cast<int>(coedge), lines_.lines[l].t[i]);
+    };
+    const std::size_t inner = numbers.size() - 2;
+    local_id before = patch_.vertex(numbers.front(), edge.uv[0]);
+    for (std::size_t i = 0; i < inner; ++i) {
+      const local_id next = patch_.vertex(numbers[i + 1], inner_uv(forward ? i : inner - 1 - i));
+      patch_.segment(before, next, line);
+      before = next;
+    }
+    patch_.segment(before, patch_.vertex(numbers.back(), edge.uv[1]), line);
+  }
+
+  /// Two triangles on an inner edge that see an end of it at different parameters meet at a pole: the gap
+  /// between these is boundary.
+  void close_pole(const passage& first, const passage& second) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const vec2 one = first.uv[end], other = second.uv[1 - end];
+      if (one == other)
+        continue;
+      const local_id number = lines_.number_of(first.ends[end]);
+      if (number == no_id)
+        throw mesh_error("face " + std::to_string(region_.cad_face) +
+                         ": the parameters of a coarse point inside a region differ between triangles");
+      const local_id a = patch_.vertex(number, one), b = patch_.vertex(number, other);
+      if (end == 1) // the first triangle runs into the pole here, the second out of it
+        patch_.segment(b, a, no_id);
+      else
+        patch_.segment(a, b, no_id);
+    }
+  }
+
+  const any_geometry& model_;
+  const surface_mesh& surface_;
+  const skeleton_region& region_;
+  const numbered_lines& lines_;
+  patch_builder patch_;
+  std::map<std::array<local_id, 2>, passage> inner_; ///< edges on no line, by their ends, as first passed
 };
 
 } // namespace detail
 
 DOVETAIL_INLINE skeleton_patch region_patch(const any_geometry& model, const surface_mesh& surface,
                                             const skeleton_region& region, const numbered_lines& lines) {
-  const bool reversed = model.topology().faces[region.cad_face].reversed;
-  detail::patch_builder patch(lines.points);
-  std::map<std::array<local_id, 2>, detail::inner_passage>
-      waiting; // inner edges seen once, by sorted vertices
-
-  const auto pass_line = [&](local_id line, std::array<local_id, 2> ends, std::array<vec2, 2> end_uv) {
-    const auto l = static_cast<std::size_t>(line);
-    const skeleton_line& key = lines.keys[l];
-    const bool forward = ends[0] == key.vertices[0];
-    const auto numbers = lines.along(line, ends[0]);
-    const std::array key_uv = forward ? end_uv : std::array{end_uv[1], end_uv[0]};
-    const local_id coedge = key.on.dimension == 1
-                                ? detail::coedge_beside(model, region.cad_face, key.on.id, key.t, key_uv)
-                                : no_id;
-    const auto inner_uv = [&](std::size_t i) { // i counts in key order
-      return coedge == no_id ? lines.lines[l].uv[i]
-                             : model.curve_uv(region.cad_face, static_cast<int>(coedge), lines.lines[l].t[i]);
-    };
-    const std::size_t inner = numbers.size() - 2;
-    local_id before = patch.vertex(numbers.front(), end_uv[0]);
-    for (std::size_t i = 0; i < inner; ++i) {
-      const local_id next = patch.vertex(numbers[i + 1], inner_uv(forward ? i : inner - 1 - i));
-      patch.segment(before, next, line);
-      before = next;
-    }
-    patch.segment(before, patch.vertex(numbers.back(), end_uv[1]), line);
-  };
-
-  // Two triangles on an inner edge that see an end at different parameters meet at a pole: close the gap
-  // there.
-  const auto close_pole = [&](const detail::inner_passage& first, const detail::inner_passage& second) {
-    for (std::size_t end = 0; end < 2; ++end) {
-      const vec2 one = first.uv[end], other = second.uv[1 - end];
-      if (one == other)
-        continue;
-      const local_id number = lines.number_of(first.vertices[end]);
-      if (number == no_id)
-        throw mesh_error("face " + std::to_string(region.cad_face) +
-                         ": the parameters of a coarse point inside a region differ between triangles");
-      const local_id a = patch.vertex(number, one), b = patch.vertex(number, other);
-      if (end == 1) // the first triangle runs into the pole here, the second out of it
-        patch.segment(b, a, no_id);
-      else
-        patch.segment(a, b, no_id);
-    }
-  };
-
-  for (const local_id triangle : region.triangles) {
-    const auto seen = detail::in_parameter_plane(surface, triangle, reversed);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const std::array ends{seen.vertices[i], seen.vertices[j]};
-      const std::array end_uv{seen.uv[i], seen.uv[j]};
-      if (const local_id line = find_line(lines.keys, ends[0], ends[1]); line != no_id) {
-        pass_line(line, ends, end_uv);
-        continue;
-      }
-      const auto [found, is_new] =
-          waiting.try_emplace(sorted_vertices(ends), detail::inner_passage{ends, end_uv});
-      if (!is_new)
-        close_pole(found->second, {ends, end_uv});
-    }
-    for (std::size_t i = 0; i < 3; ++i)
-      if (std::binary_search(region.fixed_points.begin(), region.fixed_points.end(), seen.vertices[i]))
-        patch.vertex(lines.number_of(seen.vertices[i]), seen.uv[i]);
-  }
-  return patch.take();
+  return detail::region_boundary(model, surface, region, lines).patch();
 }
 
 DOVETAIL_INLINE simplex<2> key_order(const skeleton_face& face) {

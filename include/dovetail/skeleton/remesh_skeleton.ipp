@@ -5,6 +5,7 @@
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/skeleton/patches.hpp"
@@ -54,8 +55,7 @@ public:
     if (!is_region(p))
       return "interface face " + std::to_string(p - skeleton_.regions.size());
     const local_id f = skeleton_.regions[p].cad_face;
-    const std::string& name = model_.topology().faces[f].name;
-    return "a region of face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
+    return "a region of " + entity_name("face", f, model_.topology().faces[f].name);
   }
 
   patch_failure failure_of(std::size_t p, const patch_mesh& mesh) const {

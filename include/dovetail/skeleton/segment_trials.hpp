@@ -84,7 +84,7 @@ private:
     std::array<std::vector<choice>, 3> choices;
     for (std::size_t i = 0; i < 3; ++i)
       choices[i] = choices_of(sides[i]);
-    /// Per corner, of the choices of the side behind it and the one before.
+    // Per corner, of the choices of the side behind it and the one before.
     std::array<std::vector<double>, 3> limits;
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::size_t i = (corner + 1) % 3, j = (corner + 2) % 3;
@@ -125,15 +125,19 @@ private:
     const skeleton_line& line = skeleton_.line(l);
     const double wanted = wanted_segments(l);
     const int now = static_cast<int>(skeleton_.points_of(l).size()) + 1;
+    constexpr int most_more_or_fewer = 2;
+    constexpr double of_uneven_ones = 0.4; // longer or shorter than others at one end by so much
+    constexpr double penalty_of_change = 0.2;
     std::vector<choice> choices{{}};
-    for (int n = std::max(1, now - 2); n <= now + 2; ++n)
-      for (const double bias : {0.0, -0.4, 0.4}) {
+    for (int n = std::max(1, now - most_more_or_fewer); n <= now + most_more_or_fewer; ++n)
+      for (const double bias : {0.0, -of_uneven_ones, of_uneven_ones}) {
         const double length = wanted / n, uneven = std::abs(bias) * (1 - 1.0 / n);
         if ((n == now && bias == line.bias) || (n == 1 && bias != 0) || length * (1 - uneven) < shortest ||
             length * (1 + uneven) > longest)
           continue;
         choices.push_back(
-            {0.2 + std::abs(std::log(length)) + std::abs(bias) + (3 - line.on.dimension), {n, bias}});
+            {penalty_of_change + std::abs(std::log(length)) + std::abs(bias) + (3 - line.on.dimension),
+             {n, bias}});
       }
     return choices;
   }
@@ -200,9 +204,10 @@ private:
     };
     const vec3 a = beside((corner + 1) % 3), b = beside((corner + 2) % 3);
     double halved = 0.5 * angle_between(a - p, b - p);
+    constexpr double stands_out_deg = 15; // at most, a triangle of the curved face beside its corners' plane
     if (std::any_of(sides.begin(), sides.end(),
                     [&](local_id line) { return skeleton_.line(line).on.dimension < 3; }))
-      halved = std::acos(std::cos(halved) * std::cos(15 / degrees_per_radian)); // it may stand out so far
+      halved = std::acos(std::cos(halved) * std::cos(stands_out_deg / degrees_per_radian));
     return std::max(degrees_per_radian * halved, smallest_corner_angle({p, a, b})) + rounding;
   }
   static constexpr double rounding = 1e-9;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,8 +37,7 @@ inline std::string body_text(const brep& data, std::size_t b) {
   for (std::size_t left = solid ? 0 : b - data.solids.size() + 1; left > 0; ++f)
     left -= faces[f].solids[0] == no_id ? 1 : 0;
   const std::size_t id = solid ? b : f - 1;
-  const std::string& name = solid ? data.topology.solids[id].name : faces[id].name;
-  return (solid ? "solid " : "face ") + std::to_string(id) + (name.empty() ? "" : " (" + name + ")");
+  return entity_name(solid ? "solid" : "face", id, solid ? data.topology.solids[id].name : faces[id].name);
 }
 
 /// The pairs of bodies whose bounding boxes meet. Pairs of faces are left out: where these touch they were
@@ -84,6 +84,30 @@ inline void inherit_from_fuse(attribute_map& names, const TopoDS_Shape& before, 
   });
 }
 
+/// The sentences on solids that are the same as another one: a fuse makes one of them, whose materials would
+/// be lost without a word.
+/// \param fuse the fuse, carried out
+/// \param bodies what was fused, solids by their numbers
+inline std::vector<std::string> said_of_same_solids(BOPAlgo_Builder& fuse,
+                                                    const std::vector<TopoDS_Shape>& bodies) {
+  std::vector<std::string> said;
+  TopTools_IndexedMapOfShape parts;
+  std::map<std::vector<int>, std::size_t> first_with;
+  for (std::size_t b = 0; b < bodies.size() && bodies[b].ShapeType() == TopAbs_SOLID; ++b) {
+    std::vector<int> own;
+    for (TopTools_ListIteratorOfListOfShape image(fuse.Modified(bodies[b])); image.More(); image.Next())
+      own.push_back(parts.Add(image.Value()));
+    if (own.empty())
+      own.push_back(parts.Add(bodies[b]));
+    sort_all(own);
+    const auto [same, is_new] = first_with.try_emplace(std::move(own), b);
+    if (!is_new)
+      said.push_back("solid " + std::to_string(b) + " of the file is the same as solid " +
+                     std::to_string(same->second) + "; they are one solid of the mesh");
+  }
+  return said;
+}
+
 /// The general fuse of bodies at a fuzzy tolerance: every body keeps its extent, contacts become shared
 /// faces, overlaps of solids become solids of their own. Empty when OCCT fails; else its faults tell whether
 /// it is sound.
@@ -95,7 +119,10 @@ inline std::optional<brep> general_fuse(attributed_shape& input, const std::vect
     return std::nullopt;
   inherit_from_fuse(input.names, input.shape, fuse);
   input.shape = fuse.Shape();
-  return brep_builder(input.shape, input.names).build();
+  brep made = brep_builder(input.shape, input.names).build();
+  for (std::string& text : said_of_same_solids(fuse, bodies))
+    made.warnings.push_back(std::move(text));
+  return made;
 }
 
 /// The first pair of bodies that cannot be fused even without the others.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/concepts.hpp"
+#include "dovetail/geometry/error_of_faces.hpp"
 #include "dovetail/models/occt/brep.hpp"
 #include "dovetail/models/occt/loops.hpp"
 #include "dovetail/models/occt/small_edges.hpp"
@@ -20,8 +21,7 @@ namespace dovetail::occt {
 
 /// A face's number and name, for messages.
 inline std::string face_text(const brep& data, local_id f) {
-  const auto& name = data.topology.faces[f].name;
-  return "face " + std::to_string(f) + (name.empty() ? "" : " (" + name + ")");
+  return entity_name("face", f, data.topology.faces[f].name);
 }
 
 /// Builds a `brep` from all solids of a shape and the faces beside them. The order of entities is that of
