@@ -7,8 +7,11 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
 #include <doctest/doctest.h>
 #include <gp_Ax2.hxx>
+
+#include <numbers>
 
 using namespace dovetail;
 
@@ -54,10 +57,19 @@ TEST_CASE("sizes are small along a hole far narrower than they are, and grow awa
   CHECK(size({0, 0, 0}) == doctest::Approx(0.43).epsilon(0.05));
 }
 
-TEST_CASE("sizes stay as they are where a hole is wide enough, and at the tip of a cone") {
+TEST_CASE("sizes stay as they are where a hole is wide enough, and where a face only bends") {
   const any_geometry wide(drilled_cube(0.2));
-  CHECK(finer(wide, 0.5)({1.2, 1, 1}) == 0.5);
+  CHECK(background::sizes_at_tubes(wide, uniform_size(0.5)).empty());
+  // The rounded rim of a disc closes to a ring, but not around what is narrow.
+  const any_geometry disc(
+      occt_shape_from(BRepPrimAPI_MakeTorus(5, 0.1, 0, std::numbers::pi / 2).Shape()).model);
+  for (const size_ball& ball : background::sizes_at_tubes(disc, uniform_size(1)))
+    CHECK(ball.size > 1);
+}
+
+TEST_CASE("sizes become smaller towards the tip of a cone, but not ever smaller") {
   const any_geometry cone(occt_shape_from(BRepPrimAPI_MakeCone(1, 0, 10).Shape()).model);
-  CHECK(finer(cone, 3)({1, 0, 0}) == 3);
-  CHECK(finer(cone, 3)({0, 0, 10}) > 0.2);
+  const any_sizing size = finer(cone, 3);
+  CHECK(size({0.4, 0, 6}) < 0.6);
+  CHECK(size({0, 0, 10}) > 0.2);
 }
