@@ -441,6 +441,8 @@ private:
       return redistribution<D>{ranks, given.summary, {}};
     };
     formats_ = make_formats<D>(options_, {known, by_elements});
+    if (formats_.empty()) // else the report of their files has it
+      figures_.details.children.push_back(given.summary);
   }
 
   void write(const distributed_simplicial_mesh<D>& mesh, const std::filesystem::path& folder,

@@ -16,9 +16,9 @@ namespace dovetail::background {
 std::vector<std::vector<vec3>> lines_on_curves(const surface_mesh& surface);
 
 /// The background mesh of a model with one solid from a mesh of its inside whose edges follow
-/// `lines_on_curves(reference)`. Boundary points move to the CAD surface. About n log n in the triangles.
-/// Throws `mesher_error` when a curve was not kept as a line or an element gets inverted, and what the
-/// geometry throws.
+/// `lines_on_curves(reference)`. Boundary points move to the CAD surface. About n log n in the triangles,
+/// and boundary points times vertices of the model. Throws `mesher_error` when a curve was not kept as a line
+/// or an element gets inverted, and what the geometry throws.
 background_mesh background_of_whole_domain(const any_geometry& model, const surface_mesh& reference,
                                            const simplicial_mesh<3>& volume);
 

@@ -25,7 +25,6 @@ struct line_spacing {
   bool even_when_few = false;
   int given_segments = 0; ///< exactly so many; 0: as the sizes ask
   double bias = 0;        ///< in (-1, 1): by so much the first segments are longer, and the last shorter
-  int deepest = 16;       ///< halvings of the range while integrating
 
   /// Parameters t[0] = first < ... < t[n] = last, first < last. Neighbours are about one target length apart:
   /// n = max(minimum_segments, round(integral of |C'| / h)), see `even_when_few`. `curve(t)` gives a
@@ -71,7 +70,8 @@ private:
     const double by_turn = turn_segments(turned, distance(a.point, m.point) + distance(m.point, b.point));
     const bool smooth = std::abs(simpson - trapezoid) <= 0.02 * std::max(simpson, 0.1) && simpson <= 2 &&
                         by_turn <= std::max(0.5, 1.1 * simpson);
-    if (depth < deepest && !smooth) {
+    constexpr int most_halvings = 16;
+    if (depth < most_halvings && !smooth) {
       integrate(sample, a, m, depth + 1, leaves);
       integrate(sample, m, b, depth + 1, leaves);
       return;
