@@ -21,7 +21,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -40,9 +42,17 @@ void refuse_empty_values(CLI::App& command) {
         return value.empty() ? std::string("the value is empty text") : std::string();
       },
       "");
+  const CLI::Validator a_number(
+      [](std::string& value) {
+        return std::isnan(std::strtod(value.c_str(), nullptr)) ? value + " is no number" : std::string();
+      },
+      "");
   for (CLI::Option* option : command.get_options())
-    if (option->get_items_expected_max() > 0)
+    if (option->get_items_expected_max() > 0) {
       option->check(not_empty);
+      if (option->get_type_name().find("FLOAT") != std::string::npos) // NaN is in every range
+        option->check(a_number);
+    }
 }
 
 /// Command lines at the end of a command's help.

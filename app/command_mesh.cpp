@@ -38,6 +38,7 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -460,6 +461,7 @@ private:
     figures_.at_interfaces = finished.at_interfaces;
     figures_.poor = finished.poor;
     warn_of_narrow_places();
+    warn_of_many_bad();
     figures_.peak_rss_bytes = std::max(figures_.peak_rss_bytes,
                                        finished.summary.template as<io::finishing_counts>().peak_rss_bytes);
     figures_.details.children.push_back(finished.summary);
@@ -490,6 +492,21 @@ private:
         (bad == 1 ? " degrees is in " : " degrees are in ") + (D == 3 ? "walls thinner" : "faces narrower") +
         " than the size" + where + ": smaller sizes there put more elements across, except where " +
         (D == 3 ? "a wall ends in an edge" : "a face ends in a point"));
+  }
+
+  /// Where they are many, whatever the cause; walls and narrow faces are told of anyway.
+  void warn_of_many_bad() {
+    constexpr double many = 0.01;
+    const auto& bad = figures_.poor.bad;
+    const auto all = std::accumulate(bad.begin(), bad.end(), std::int64_t{0});
+    const auto cause = static_cast<poor_cause>(std::max_element(bad.begin(), bad.end()) - bad.begin());
+    if (all == 0 || static_cast<double>(all) < many * static_cast<double>(figures_.elements) ||
+        cause == poor_cause::thin_wall)
+      return;
+    figures_.warnings.push_back(std::to_string(all) + " of " + std::to_string(figures_.elements) +
+                                (D == 3 ? " tetrahedra" : " triangles") + " are under " +
+                                std::to_string(limits_of(D).bad) + " degrees; the cause of most is '" +
+                                std::string(name_of_cause(cause, D)) + "'");
   }
 
   /// The mesh is complete before: who stops this or kills it loses the checksums only.

@@ -58,6 +58,7 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   const generate_options numbers = make_generate_options(options);
   identity.emplace_back("enlarged above", all_digits(numbers.enlarged_above));
   identity.emplace_back("undivided elements", all_digits(numbers.undivided_elements));
+  identity.emplace_back("least subdomains", std::to_string(numbers.least_subdomains));
   identity.emplace_back("subdomains", options.subdomains ? std::to_string(*options.subdomains) : "default");
   std::string only = numbers.only.empty() ? "all" : "";
   for (const local_id subdomain : numbers.only)

@@ -172,6 +172,8 @@ generate_options make_generate_options(const mesh_options& options) {
   constexpr double sooner_undivided = 650'000;
   if (leaves_decomposition_open(options))
     result.undivided_elements = sooner_undivided;
+  if (options.ranks && options.redistribute != by_elements)
+    result.least_subdomains = *options.ranks; // none of them is left without a piece
   if (options.coarsening) {
     if (!(*options.coarsening >= 1) || !std::isfinite(*options.coarsening))
       throw command_line_error("--coarsening: " + number_text(*options.coarsening) + " is not 1 or more");

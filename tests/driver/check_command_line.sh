@@ -82,6 +82,8 @@ echo '{ "size": 1, "soruces": [] }' >"$inputs/misspelt.json"
 echo '{ "curvature": 0 }' >"$inputs/zero.json"
 echo '{ "background": { "file": "no_such_mesh.vtu" }, "gradation": 0.3 }' >"$inputs/background.json"
 expect_error 'misspelt.json:1: unknown key "soruces"' mesh no_such_file.step --sizing "$inputs/misspelt.json"
+echo '{ "size": 1, "gradation": { "relative_error": 1e-9 } }' >"$inputs/exact.json"
+expect_error 'exact.json:1: "relative_error" is 1e-09; give at least 0.001' mesh no_such_file.step --sizing "$inputs/exact.json"
 expect_error 'zero.json:1: "curvature" is 0' mesh no_such_file.step --sizing "$inputs/zero.json"
 expect_error "no_such.json: the sizing file cannot be read" mesh no_such_file.step --sizing no_such.json
 expect_error "no_such_file.step: there is no such file" mesh no_such_file.step --sizing "$inputs/background.json"
@@ -98,6 +100,24 @@ expect_error 'across.json:1: "proximity" is 1e\+09; give .* at most 1000' mesh -
 expect_error "100000000 subdomains are more than" mesh --model combustor --subdomains 100000000
 write_cube >"$inputs/cube.off"
 expect_error "more than any machine can hold" plan "$inputs/cube.off" --size 3e-9
+
+# NaN is in no range.
+for option in "view mesh.vtu --png view.png --explode" "view mesh.vtu --png view.png --under" "adapt mesh.vtu -o next.vtu --size 1 --feature-angle" \
+  "simulate trace.json --workers 2 --latency" "mesh no_such_file.step --coarsening"; do
+  expect_usage_error "${option##* }: .*nan is no number" $option nan
+done
+
+# As few elements as a model allows, where fewer are wanted.
+elements_for() { # number: sets $made
+  expect_success mesh "$inputs/cube.off" --elements "$1" --format none --report report.json
+  made=$(grep -oE '"elements": [0-9]+' "$sandbox/work/report.json" | head -1 | grep -oE '[0-9]+')
+}
+elements_for 30
+most=$made
+for few in 1 5; do
+  elements_for $few
+  ((made <= most)) || fault "$made elements for $few, $most for 30"
+done
 
 # A small mesh is one piece, unless something is said that only a decomposition is for.
 planned() { # subdomains, options

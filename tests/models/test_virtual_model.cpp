@@ -397,6 +397,12 @@ TEST_CASE("the rim of a plate stays, however thin, and so does a wedge") {
   check_kept_whole(prism(wedge, wedge, {3, 1}, {0, 10}).model());
 }
 
+TEST_CASE("the ends of a bar far thinner than the size stay faces") {
+  const outline square{{0, 0}, {0.05, 0}, {0.05, 0.05}, {0, 0.05}};
+  const virtual_model bar(prism(square, square, {0.025, 0.025}, {0, 10}).model(), uniform_size(1));
+  CHECK(bar.suppressed().empty());
+}
+
 TEST_CASE("a hole far smaller than the size stays one") {
   check_kept_whole(
       model_of(BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(10, 10, 3).Shape(),

@@ -195,7 +195,7 @@ private:
         const simplex<1> edge = sorted_vertices(simplex<1>{chains_[c][i], chains_[c][i + 1]});
         if (edge[0] == no_id || !edges.contains(edge))
           throw mesher_error("the background mesher did not keep " + name_of(static_cast<local_id>(c)) +
-                             " as a line; use one that keeps the boundary, or a smaller coarse size");
+                             " as a line; use one that keeps the boundary, or a finer background");
         on_lines_.insert(edge);
       }
   }
@@ -330,7 +330,7 @@ private:
       const auto& [a, b, c, d] = element;
       if (!(signed_volume(out.points[a], out.points[b], out.points[c], out.points[d]) > 0))
         throw mesher_error("an element of the background mesh is inverted when its boundary points move to "
-                           "the CAD surface; give a smaller coarse size");
+                           "the CAD surface; use a mesher that keeps the boundary, or a finer background");
       out.elements.push_back(element);
     }
     out.tags.assign(out.elements.size(), 0);

@@ -329,6 +329,9 @@ private:
         options.slope = positive(*member, "slope");
       if (member->find("relative_error"))
         options.relative_error = positive(*member, "relative_error");
+      if (constexpr double least = 0.001; options.relative_error < least) // cells without end
+        fail(*member, "\"relative_error\" is " + number_text(options.relative_error) + "; give at least " +
+                          number_text(least));
     } else if (member->type != json_value::kind::boolean) {
       fail(*member, "\"gradation\" must be a slope, true, false or an object { ... }");
     }

@@ -34,6 +34,7 @@ DOVETAIL_INLINE void compare_volume(const simplicial_skeleton<3>& skeleton,
   const double volume = volume_inside(skeleton);
   const double gap = deviation_in(summary.find("skeleton").find("deviation")).gap;
   summary.set(volume_counts{volume, *of_model});
+  constexpr double worth_telling = 0.05;
   constexpr double of_kernel = 3e-6; // about as far are the volumes off that geometry kernels give
   if (std::abs(volume - *of_model) > 2 * gap + of_kernel * std::abs(*of_model))
     summary.warnings.push_back("the mesh fills a volume of " + number_text(volume) + ", and the model has " +
@@ -41,6 +42,10 @@ DOVETAIL_INLINE void compare_volume(const simplicial_skeleton<3>& skeleton,
                                number_text(gap, 2) +
                                " of that: a part of the boundary is not where the "
                                "model has it, so look at the mesh before using it");
+  else if (const double share = std::abs(volume / *of_model - 1); share > worth_telling)
+    summary.warnings.push_back("the mesh fills a volume of " + number_text(volume) + ", and the model has " +
+                               number_text(*of_model) + ", " + number_text(100 * share, 2) +
+                               " % off: sizes are large for what the model has; smaller ones follow it");
 }
 
 } // namespace dovetail

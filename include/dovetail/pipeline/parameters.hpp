@@ -39,6 +39,7 @@ struct generate_options {
   /// When `subdomains` is 0, a mesh of fewer predicted elements is one piece: to decompose it would take
   /// longer than to mesh it.
   double undivided_elements = 0;
+  int least_subdomains = 1; ///< when `subdomains` is 0, as far as there are elements enough
   /// Elements of the background mesh: at least so many per subdomain, and about `background_elements` where
   /// that is no more than a tenth of the final mesh. From there on the simplification hardly refuses
   /// anything.

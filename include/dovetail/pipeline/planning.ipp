@@ -65,12 +65,14 @@ inline void require_room(const mesh_plan& plan, const generate_options& options)
 }
 
 inline int default_subdomains(double elements, double per_subdomain, const generate_options& options) {
+  const double least =
+      std::clamp(static_cast<double>(options.least_subdomains), 1.0, std::max(1.0, elements));
   if (elements < options.undivided_elements)
-    return 1;
+    return static_cast<int>(least);
   const double plain = elements / per_subdomain;
   const double excess = std::max(1.0, elements / options.many_elements);
   constexpr double most = std::numeric_limits<int>::max();
-  return static_cast<int>(std::clamp(std::round(plain / std::sqrt(excess)), 1.0, most));
+  return static_cast<int>(std::clamp(std::round(plain / std::sqrt(excess)), least, most));
 }
 
 } // namespace detail

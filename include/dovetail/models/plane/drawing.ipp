@@ -77,9 +77,23 @@ inline void require_proper_path(const plane_drawing& drawing, std::size_t path, 
                            "; divide it there");
 }
 
+/// A point that two segments share.
+inline vec2 common_point(const drawn_segment& s, const drawn_segment& t) {
+  const vec2 along = s.to - s.from, other = t.to - t.from;
+  const double turn = cross(along, other);
+  double share = 0; // of the way along the first
+  if (turn != 0) {
+    share = cross(t.from - s.from, other) / turn;
+  } else { // the middle of what they have in common
+    for (const vec2 end : {t.from, t.to})
+      share += 0.5 * std::clamp(dot(end - s.from, along) / dot(along, along), 0.0, 1.0);
+  }
+  return s.from + std::clamp(share, 0.0, 1.0) * along;
+}
+
 [[noreturn]] inline void throw_meeting(const plane_drawing& drawing, const drawn_segment& s,
                                        const drawn_segment& t) {
-  const std::string where = " near " + text_of(0.5 * (t.from + t.to));
+  const std::string where = " near " + text_of(common_point(s, t));
   if (s.path == t.path)
     throw geometry_error(name_of_path(drawing, s.path) + " crosses itself: segments " +
                          std::to_string(s.index) + " and " + std::to_string(t.index) + where);

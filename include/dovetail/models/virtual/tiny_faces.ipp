@@ -29,13 +29,23 @@ inline std::vector<local_id> edges_of_tiny_face(const editable_topology& topolog
   return edges;
 }
 
-/// Whether each other face at the edges may lose them.
+/// Whether each other face at the edges may lose them. Narrow ones that go the same way, as along a bar whose
+/// end the face is, would meet in a needle's point.
 inline bool faces_around_allow(const editable_topology& topology, const limits& allowed, local_id f,
                                const std::vector<local_id>& edges) {
+  constexpr double middle = 0.5; // of an edge
+  std::vector<vec3> along;       // narrow faces
   for (const local_id c : edges)
-    for (const passage& p : topology.passages_of(c))
-      if (p.face != f && !can_be_dropped(topology, allowed, p) &&
-          !has_narrow_end_at(topology, allowed, p.face, c))
+    for (const passage& p : topology.passages_of(c)) {
+      if (p.face == f || can_be_dropped(topology, allowed, p))
+        continue;
+      if (!has_narrow_end_at(topology, allowed, p.face, c))
+        return false;
+      along.push_back(topology.inward(p.face, topology.at(p), middle));
+    }
+  for (std::size_t i = 0; i < along.size(); ++i)
+    for (std::size_t j = i + 1; j < along.size(); ++j)
+      if (degrees_per_radian * angle_between(along[i], along[j]) < allowed.least_angle_deg)
         return false;
   return true;
 }
