@@ -10,12 +10,16 @@
 #include "dovetail/solver/gather.hpp"
 #include "support/refusal.hpp"
 
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Shape.hxx>
 #include <doctest/doctest.h>
 #include <gp_Ax2.hxx>
+#include <gp_Pnt.hxx>
 
 #include <algorithm>
 #include <map>
@@ -164,6 +168,10 @@ TEST_CASE("a model that is not the mesh's, and ids on parts of its faces, are re
     return testing::refusal_of<mesh_error>([&] { return adapt<3>(on, old, uniform_size(0.4), by_tetgen()); });
   };
   CHECK(has(told(two_bodies(2.0), mesh), "the mesh is not one of the model"));
+  const TopoDS_Shape cube = BRepPrimAPI_MakeBox(2, 2, 2).Shape();
+  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Pnt(1, 1, 1), 0.5).Shape();
+  const auto hollow = first_mesh(occt_shape_from(BRepAlgoAPI_Cut(cube, ball).Shape()).model, 0.4);
+  CHECK(has(told(occt_shape_from(cube).model, hollow), "the model has nothing"));
   auto parts = mesh;
   for (std::size_t s = 0; s < parts.sides.size(); ++s)
     if (parts.mesh.points[parts.sides[s][0]].z > 1)

@@ -161,6 +161,19 @@ DOVETAIL_INLINE void strays::refuse_many(const geometry_topology& topology) cons
                    "; give the model that it was made of, in the same unit, or adapt without one");
 }
 
+/// Throws `mesh_error` where the model has nothing at one of the closed surfaces of a mesh's boundary, as
+/// where a void is not in it.
+/// \param met per surface whether a point of the model is on it
+inline void require_surfaces_on_model(const simplicial_mesh<2>& boundary, const std::vector<bool>& met) {
+  for (std::size_t t = 0; t < boundary.elements.size(); ++t)
+    if (!met[boundary.tags[t]]) {
+      const vec3 at = boundary.points[boundary.elements[t][0]];
+      throw mesh_error("the mesh is not one of the model: at the mesh's boundary near (" + number_text(at.x) +
+                       ", " + number_text(at.y) + ", " + number_text(at.z) +
+                       ") the model has nothing; give the model that it was made of, or adapt without one");
+    }
+}
+
 } // namespace detail
 
 DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surface_mesh& coarse,
@@ -171,6 +184,10 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
   detail::number_votes ids("face", "id", topology.faces.size());
   detail::number_votes materials("solid", "material", topology.solids.size());
   detail::strays strays;
+  const auto& surfaces = old.mesh.tags;
+  std::vector<bool> met(
+      surfaces.empty() ? 0
+                       : static_cast<std::size_t>(*std::max_element(surfaces.begin(), surfaces.end())) + 1);
   const auto id_of = [&](local_id group) { return group == no_id ? no_id : old.group_numbers[group]; };
   detail::for_each_sample(model, coarse, surface.mean_longest_edge(), [&](const detail::face_sample& at) {
     const auto [behind, front] = topology.faces[at.face].solids;
@@ -184,6 +201,7 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
     if (stray)
       return;
     const std::size_t t = found.triangle;
+    met[surfaces[t]] = true;
     ids.add(at.face, id_of(old.groups[t]), at.area);
     const auto& v = old.mesh.elements[t];
     const auto corner = [&](std::size_t k) { return old.mesh.points[v[k]]; };
@@ -197,6 +215,7 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
       materials.add(front, material(same_way ? old.front_of[t] : old.solid_of[t]), at.area);
   });
   strays.refuse_many(topology);
+  detail::require_surfaces_on_model(old.mesh, met);
   model_names names;
   names.id_of_face = ids.winners(no_id);
   names.material_of_solid = materials.winners(no_id);
