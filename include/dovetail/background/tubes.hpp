@@ -146,8 +146,9 @@ private:
 /// The sizes at tubes far narrower than a field says: there edges turn by 60 degrees, about six of them
 /// around. Empty where a model has none. A mesher that is asked for larger triangles on such a face makes
 /// needles along it, and no good elements fit those.
-/// Linear in the samples of the faces that close to rings; throws what the model's queries and the field
-/// throw.
+/// Linear in the samples of faces that close to rings; throws what the model's queries and the field throw.
+/// \param model the model
+/// \param size edge lengths wanted, in the model's unit
 inline std::vector<size_ball> sizes_at_tubes(const any_geometry& model, const any_sizing& size) {
   constexpr double turn = std::numbers::pi / 3; // of an edge, in radians
   constexpr double narrow = 4;                  // radii of a tube that are less than the size
@@ -176,7 +177,10 @@ inline std::vector<size_ball> sizes_at_tubes(const any_geometry& model, const an
   return balls;
 }
 
-/// The field, not larger than `sizes_at_tubes` at these, and growing away from them.
+/// A field that is no larger than at tubes either, and grows away from them.
+/// Complexity: n log n in these. Throws nothing.
+/// \param size edge lengths wanted, in the model's unit
+/// \param at_tubes as `sizes_at_tubes` has them
 inline any_sizing finer_at_tubes(const any_sizing& size, std::vector<size_ball> at_tubes) {
   constexpr double growth = 0.3;
   return at_tubes.empty() ? size : within_bounds(size, std::move(at_tubes), growth);

@@ -12,7 +12,7 @@
 
 namespace dovetail {
 
-/// A face, curve or solid of a model in messages: its number, and its name if it has one.
+/// A face, curve or solid of a model in messages: its `number` and, if it has one, its `name`.
 /// \param kind "face", "curve" or "solid"
 template <std::integral Number>
 std::string entity_name(const char* kind, Number number, const std::string& name) {
