@@ -161,18 +161,36 @@ DOVETAIL_INLINE void strays::refuse_many(const geometry_topology& topology) cons
                    "; give the model that it was made of, in the same unit, or adapt without one");
 }
 
-/// Throws `mesh_error` where the model has nothing at one of the closed surfaces of a mesh's boundary, as
-/// where a void is not in it.
-/// \param met per surface whether a point of the model is on it
-inline void require_surfaces_on_model(const simplicial_mesh<2>& boundary, const std::vector<bool>& met) {
-  for (std::size_t t = 0; t < boundary.elements.size(); ++t)
-    if (!met[boundary.tags[t]]) {
-      const vec3 at = boundary.points[boundary.elements[t][0]];
-      throw mesh_error("the mesh is not one of the model: at the mesh's boundary near (" + number_text(at.x) +
-                       ", " + number_text(at.y) + ", " + number_text(at.z) +
-                       ") the model has nothing; give the model that it was made of, or adapt without one");
-    }
-}
+/// Which of the closed surfaces of a mesh's boundary, by tags, a model has points on; one where they are not
+/// told apart.
+class met_surfaces {
+public:
+  explicit met_surfaces(const simplicial_mesh<2>& boundary) : boundary_(boundary) {
+    for (std::size_t t = 0; t < boundary.elements.size(); ++t)
+      is_met_[surface_of(t)] = false;
+  }
+
+  void meet(std::size_t triangle) { is_met_[surface_of(triangle)] = true; }
+
+  /// Throws `mesh_error` where the model has nothing at one of them, as where it lacks a void.
+  void require_all() const {
+    for (std::size_t t = 0; t < boundary_.elements.size(); ++t)
+      if (!is_met_.at(surface_of(t))) {
+        const vec3 at = boundary_.points[boundary_.elements[t][0]];
+        throw mesh_error("the mesh is not one of the model: at the mesh's boundary near (" +
+                         number_text(at.x) + ", " + number_text(at.y) + ", " + number_text(at.z) +
+                         ") the model has nothing; give the model that it was made of, or adapt without one");
+      }
+  }
+
+private:
+  local_id surface_of(std::size_t triangle) const {
+    return boundary_.tags.empty() ? 0 : boundary_.tags[triangle];
+  }
+
+  const simplicial_mesh<2>& boundary_;
+  std::map<local_id, bool> is_met_;
+};
 
 } // namespace detail
 
@@ -184,10 +202,7 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
   detail::number_votes ids("face", "id", topology.faces.size());
   detail::number_votes materials("solid", "material", topology.solids.size());
   detail::strays strays;
-  const auto& surfaces = old.mesh.tags;
-  std::vector<bool> met(
-      surfaces.empty() ? 0
-                       : static_cast<std::size_t>(*std::max_element(surfaces.begin(), surfaces.end())) + 1);
+  detail::met_surfaces met(old.mesh);
   const auto id_of = [&](local_id group) { return group == no_id ? no_id : old.group_numbers[group]; };
   detail::for_each_sample(model, coarse, surface.mean_longest_edge(), [&](const detail::face_sample& at) {
     const auto [behind, front] = topology.faces[at.face].solids;
@@ -201,7 +216,7 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
     if (stray)
       return;
     const std::size_t t = found.triangle;
-    met[surfaces[t]] = true;
+    met.meet(t);
     ids.add(at.face, id_of(old.groups[t]), at.area);
     const auto& v = old.mesh.elements[t];
     const auto corner = [&](std::size_t k) { return old.mesh.points[v[k]]; };
@@ -215,7 +230,7 @@ DOVETAIL_INLINE model_names names_on_model(const any_geometry& model, const surf
       materials.add(front, material(same_way ? old.front_of[t] : old.solid_of[t]), at.area);
   });
   strays.refuse_many(topology);
-  detail::require_surfaces_on_model(old.mesh, met);
+  met.require_all();
   model_names names;
   names.id_of_face = ids.winners(no_id);
   names.material_of_solid = materials.winners(no_id);
