@@ -183,13 +183,12 @@ TEST_CASE("pieces that still cross when no round is left are an error that names
 }
 
 TEST_CASE(
-    "a ring far thinner than the size: its coarse surface crosses itself until the whole face is finer") {
+    "a ring far thinner than the size: sizes are small along it, so that its surface never crosses itself") {
   const auto model = occt_shape_from(BRepPrimAPI_MakeTorus(50, 0.3).Shape()).model;
   const auto result = generate<2>(model, uniform_size(8.0), parameters<>{}.with_options(in_parts(2)));
   CHECK(euler_characteristic(require_valid(result)) == 0);
   CHECK(crossings_of(result) == 0);
-  const double rounds = result.summary.find("background").find("coarse surface").get("refinement_rounds");
-  CHECK(rounds > 2);
+  CHECK(result.summary.find("background").find("coarse surface").get("refinement_rounds") == 0);
 }
 
 /// Folds over beside segments of fine length near one place of a rim, as surfaces do that turn sharply there.

@@ -7,6 +7,7 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/pipeline/model_measure.hpp"
+#include "dovetail/remesh/surface_deviation.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -6,6 +6,7 @@
 /// left to `unwanted_chord_splitter`.
 #pragma once
 
+#include "dovetail/mesh/simplex_grouping.hpp"
 #include "dovetail/mesh/surface_smoothing.hpp"
 #include "dovetail/remesh/patch_state.hpp"
 

@@ -9,6 +9,7 @@
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/models/discrete/mesh_boundary.hpp"
 #include "dovetail/solver/names_on_model.hpp"
@@ -161,22 +162,26 @@ DOVETAIL_INLINE void strays::refuse_many(const geometry_topology& topology) cons
                    "; give the model that it was made of, in the same unit, or adapt without one");
 }
 
-/// Which of the closed surfaces of a mesh's boundary, by tags, a model has points on; one where they are not
-/// told apart.
+/// Which of the connected surfaces of a mesh's boundary a model has points on.
 class met_surfaces {
 public:
   explicit met_surfaces(const simplicial_mesh<2>& boundary) : boundary_(boundary) {
-    for (std::size_t t = 0; t < boundary.elements.size(); ++t)
-      is_met_[surface_of(t)] = false;
+    disjoint_sets together(boundary.points.size());
+    for (const auto& [a, b, c] : boundary.elements) {
+      together.unite(a, b);
+      together.unite(b, c);
+    }
+    of_point_ = together.number_sets().of_member;
+    is_met_.resize(of_point_.size(), false);
   }
 
-  void meet(std::size_t triangle) { is_met_[surface_of(triangle)] = true; }
+  void meet(std::size_t triangle) { is_met_[of_point_[boundary_.elements[triangle][0]]] = true; }
 
   /// Throws `mesh_error` where the model has nothing at one of them, as where it lacks a void.
   void require_all() const {
-    for (std::size_t t = 0; t < boundary_.elements.size(); ++t)
-      if (!is_met_.at(surface_of(t))) {
-        const vec3 at = boundary_.points[boundary_.elements[t][0]];
+    for (const auto& triangle : boundary_.elements)
+      if (!is_met_[of_point_[triangle[0]]]) {
+        const vec3 at = boundary_.points[triangle[0]];
         throw mesh_error("the mesh is not one of the model: at the mesh's boundary near (" +
                          number_text(at.x) + ", " + number_text(at.y) + ", " + number_text(at.z) +
                          ") the model has nothing; give the model that it was made of, or adapt without one");
@@ -184,12 +189,9 @@ public:
   }
 
 private:
-  local_id surface_of(std::size_t triangle) const {
-    return boundary_.tags.empty() ? 0 : boundary_.tags[triangle];
-  }
-
   const simplicial_mesh<2>& boundary_;
-  std::map<local_id, bool> is_met_;
+  std::vector<local_id> of_point_; ///< the surface that each point is of
+  std::vector<bool> is_met_;       ///< per surface
 };
 
 } // namespace detail
