@@ -78,7 +78,7 @@ TEST_CASE("a volume that differs by more than lies between mesh and model is war
   CHECK(warnings(0.95, 0.01) == 1);
   CHECK(warnings(1.05, 0.03) == 0);
   CHECK(warnings({}, 0) == 0);
-  CHECK(warnings(1.2, 0.2) == 1); // explained, but much
+  CHECK(warnings(1.5, 0.3) == 1); // explained, but much
 }
 
 TEST_CASE("a mesh that cuts off the edges of its model says so, and others say nothing") {

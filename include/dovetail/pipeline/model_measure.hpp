@@ -28,7 +28,7 @@ double volume_inside(const simplicial_skeleton<3>& skeleton);
 /// The mesh of a model of tetrahedra fills the volume that the model has: or else there is a warning in
 /// `summary`, the report of the run, which gets `volume_counts`. Allowed are twice the gap, which is measured
 /// at the centres of triangles, and three millionths of the volume, by which those that geometry kernels
-/// give are off. What these explain is told from a tenth of the volume on. Nothing is done where the model
+/// give are off. What these explain is told from a fifth of the volume on. Nothing is done where the model
 /// does not know its volume.
 /// \param of_model the model's own volume, where it knows it
 void compare_volume(const simplicial_skeleton<3>& skeleton, const std::optional<double>& of_model,

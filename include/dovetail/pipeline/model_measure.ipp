@@ -35,7 +35,7 @@ DOVETAIL_INLINE void compare_volume(const simplicial_skeleton<3>& skeleton,
   const double volume = volume_inside(skeleton);
   const double gap = deviation_in(summary.find("skeleton").find("deviation")).gap;
   summary.set(volume_counts{volume, *of_model});
-  constexpr double worth_telling = 0.1;
+  constexpr double worth_telling = 0.2;
   constexpr double of_kernel = 3e-6; // about as far are the volumes off that geometry kernels give
   if (std::abs(volume - *of_model) > 2 * gap + of_kernel * std::abs(*of_model))
     summary.warnings.push_back("the mesh fills a volume of " + number_text(volume) + ", and the model has " +
