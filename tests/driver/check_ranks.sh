@@ -33,6 +33,10 @@ for file in ranks.pvtu ranks_0000.vtu ranks_0001.vtu ranks_0002.vtu; do
 done
 expect_success "${small[@]}" --subdomains 8 --ranks 2 --redistribute none --report report.json
 [[ $(counter largest_rank) =~ ^[1-9] ]] || fault "no elements of ranks"
+expect_success "${small[@]}" --ranks 3 --report report.json # which would be one piece otherwise
+[[ $(counter subdomains) == 3 ]] || fault "not a subdomain for each rank"
+expect_success "${small[@]}" --subdomains 8 --ranks 2 --redistribute by-elements --format none --report report.json
+[[ $(counter seams_before) =~ ^[1-9] ]] || fault "the redistribution by elements is not in the report"
 expect_success "${small[@]}" --subdomains 8 --ranks 2 --format msh-ranks,openfoam
 expect_files="ranks_1.msh ranks_2.msh processor0/constant/polyMesh/boundary processor1/constant/polyMesh/faces"
 for file in $expect_files; do

@@ -62,5 +62,13 @@ grep -qE "$given_up [3-9][0-9.]*e\+06 elements are needed: see --elements" "$san
   fault "it does not say what would resolve the foil"
 grep -q 'are in walls thinner than the size' "$sandbox/stdout" "$sandbox/stderr" || fault "bad elements are not told of"
 
+# Many bad elements are told of, whatever their cause: those of a bar that sizes are far too large for.
+write_cube | awk 'NR > 2 && NF == 3 { print 10 * $1, 0.01 * $2, 0.01 * $3; next } { print }' >"$inputs/bar.off"
+many=' tetrahedra are under 12 degrees; the cause of most is '
+expect_success mesh "$inputs/bar.off" --size 0.3 --format none
+grep -qE "[0-9]+ of [0-9]+$many'boundary triangle'" "$sandbox/stdout" "$sandbox/stderr" || fault "bad elements are not told of"
+expect_success mesh "$inputs/bar.off" --size 0.003 --format none
+grep -q "$many" "$sandbox/stdout" "$sandbox/stderr" && fault "good elements are called bad"
+
 [[ ! -e $sandbox/missing ]] || fault "$(cat "$sandbox/missing")"
 ((problems == 0)) || exit 1

@@ -61,7 +61,8 @@ interface_angles measure_interface_angles(const decomposed_mesh<D>& given, const
 /// side k of triangle t, all of an edge or none; all when none are given. `sides` in the result are
 /// triangles. About linear. Throws `mesh_error` for points that do not exist or are not finite, for a
 /// triangle that is flat or there twice, and where the subdomains around an edge contradict each other since
-/// a triangle is turned over; not looked for in a skeleton that is `valid`. \param fine the remeshed skeleton
+/// a triangle is turned over; not looked for in a skeleton that is `valid`.
+/// \param fine the remeshed skeleton
 /// \param wanted the angles below which one is a violation, in degrees
 /// \param refused one per triangle, or empty
 /// \param half_edges those to measure; all of them unless given

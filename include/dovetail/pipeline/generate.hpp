@@ -82,12 +82,14 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
 /// The mesh depends on the model, the field and the parameters, not on the executor or its workers. Throws
 /// what the stages throw: typed errors that name the CAD entity concerned. A subdomain that no attempt could
 /// mesh is data. The report warns of faces that are further from the mesh than the sizes explain, of a volume
-/// that differs from the model's `volume()`, if it knows that, by more than the gap between their surfaces,
-/// and of 50 % more elements than were predicted. Where too many subdomains would have to be merged, half as
-/// many are made, which a warning tells. Complexity: that of the mesher and the improver over all pieces; the
-/// decomposition costs about n log n in the elements of the background mesh. \param given_model a model of
-/// `geometry_model`; for D = 2 also a `plane_domain` \param given_size a sizing field: edge lengths wanted,
-/// in the units of the model \param policies policies and options
+/// that differs from the model's `volume()`, if it knows that, by more than the gap between their surfaces or
+/// by a fifth, and of 50 % more elements than were predicted. Where too many subdomains would have to be
+/// merged, half as many are made, which a warning tells.
+/// Complexity: that of the mesher and the improver over all pieces; the decomposition costs about n log n in
+/// the elements of the background mesh.
+/// \param given_model a model of `geometry_model`; for D = 2 also a `plane_domain`
+/// \param given_size a sizing field: edge lengths wanted, in the units of the model
+/// \param policies policies and options
 template <int D, class G, class H, class Parameters = parameters<>>
   requires(D == 2 || D == 3)
 generated<D> generate(const G& given_model, const H& given_size, const Parameters& policies = {}) {
