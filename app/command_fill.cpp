@@ -113,6 +113,16 @@ void print_filled(const filling_options& options, const filled_surface& made) {
   row("Seconds", made.summary.seconds, "%.2f");
 }
 
+/// Where a hundredth of the elements or more are bad.
+void warn_of_many_bad(const quality_statistics& quality, std::vector<std::string>& warnings) {
+  constexpr double many = 1e4; // per million
+  const double bad = quality.per_million_under(limits_of(3).bad);
+  if (bad >= many)
+    warnings.push_back(number_text(bad / 1e4, 2) + " % of the tetrahedra are under " +
+                       std::to_string(limits_of(3).bad) +
+                       " degrees, as where the surface has needles, or triangles larger than it is thick");
+}
+
 filled_surface fill_file(const surface_file& given, const filling_options& options, const given_sizes& sizes,
                          dovetail::fill_options how, const any_mesher<3>& mesh_it,
                          const any_improver<3>& improve) {
@@ -156,6 +166,7 @@ int run_fill(const filling_options& options) {
                                .quality = made.quality,
                                .summary = made.summary};
   collect_warnings(made.summary, warnings);
+  warn_of_many_bad(made.quality, warnings);
   const io::loaded_mesh whole = surface_with_inside(std::move(given), std::move(made));
   write_mesh_file(whole, options.out);
   if (!options.report.empty())

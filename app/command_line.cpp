@@ -44,7 +44,9 @@ void refuse_empty_values(CLI::App& command) {
       "");
   const CLI::Validator a_number(
       [](std::string& value) {
-        return std::isnan(std::strtod(value.c_str(), nullptr)) ? value + " is no number" : std::string();
+        const bool is_other = std::isnan(std::strtod(value.c_str(), nullptr)) ||
+                              value.find_first_of("xX") != value.npos; // NaN, or hexadecimal
+        return is_other ? value + " is no decimal number" : std::string();
       },
       "");
   for (CLI::Option* option : command.get_options())
@@ -301,10 +303,14 @@ struct parser {
                     "Subdomains of which alone the pieces are made, as in the whole mesh; from 0: 7,12-15")
         ->delimiter(',')
         ->allow_extra_args(false);
+    command.add_flag("--alone", mesh.alone,
+                     "With --only: boundaries too are made around these alone, however large the mesh is; "
+                     "--local-repartition is off then");
     add_paper_options(command, mesh);
     add_output_options(command, mesh);
     command.callback([this] {
       choose_as_paper(mesh);
+      choose_for_alone(mesh);
       chosen = [this] { return run_mesh(mesh); };
       inputs = inputs_of_model(mesh.model);
       outputs = {.files = {{"--report", mesh.report}, {"--trace", mesh.trace}},

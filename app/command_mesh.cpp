@@ -375,7 +375,7 @@ private:
     figures_.background_mesher = policies_.background_mesher.name();
     figures_.surface_mesher = policies_.surface_mesher.name();
     figures_.workers = policies_.executor.workers();
-    figures_.only.assign(parameters_.only.begin(), parameters_.only.end());
+    figures_.only.assign(result.only.begin(), result.only.end());
     add_pipeline_figures(result, source.geometry.topology(), figures_);
     add_mesh_figures(result.mesh, figures_);
     if constexpr (D == 3) // the only one whose memory was measured
@@ -545,6 +545,7 @@ private:
     execution_trace trace = trace_->trace();
     trace.elements = static_cast<double>(figures_.elements);
     trace.sizes = sizes_;
+    trace.subject = figures_.model + (D == 2 ? ", --dimension 2" : "");
     io::write_trace(trace, options_.trace);
   }
 

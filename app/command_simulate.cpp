@@ -38,6 +38,11 @@ simulation::workload wanted_work(const simulate_options& options) {
   if (known.size() != 2)
     throw command_line_error("--elements: a law needs two traces of different sizes; give a smaller and a "
                              "larger one");
+  const std::string& one = known.front().subject;
+  const std::string& other = known.back().subject;
+  if (!one.empty() && !other.empty() && one != other)
+    std::fprintf(stderr, "warning: the traces are of %s and of %s; a law needs two of one model\n",
+                 one.c_str(), other.c_str());
   return simulation::scaled_to(*options.elements, known.front(), known.back());
 }
 

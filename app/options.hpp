@@ -39,6 +39,7 @@ struct mesh_options {
   std::optional<int> subdomains;
   std::optional<double> coarsening; ///< background size over size
   std::vector<std::string> only;    ///< subdomains that are meshed, as numbers or ranges; empty: all
+  bool alone = false;               ///< boundaries are made around these alone: `choose_for_alone`
   std::string decomposition;        ///< how the domain becomes subdomains; empty: the default
   int workers = 0;                  ///< 0: as many as the machine has; on several ranks one each
   std::string mesher;

@@ -64,6 +64,8 @@ run_identity identity_of_run(const mesh_options& options, const model_source& so
   for (const local_id subdomain : numbers.only)
     only.append(std::to_string(subdomain)).append(",");
   identity.emplace_back("only", only);
+  if (options.alone)
+    identity.emplace_back("alone", "yes");
   identity.emplace_back("coarsening", options.coarsening ? all_digits(*options.coarsening) : "default");
   identity.emplace_back("decomposition",
                         chosen_name(decomposition_names(), options.decomposition, "--decomposition"));

@@ -146,6 +146,20 @@ void choose_as_paper(mesh_options& options) {
   choose(options.background_improver, "none");
 }
 
+void choose_for_alone(mesh_options& options) {
+  if (!options.alone)
+    return;
+  if (options.only.empty())
+    throw command_line_error("--alone: give the subdomains with --only");
+  if (options.dimension == 2)
+    throw command_line_error("--alone is for tetrahedra; with --dimension 2 give --only without it");
+  if (options.local_repartition == "on")
+    throw command_line_error(
+        "--alone: which interfaces --local-repartition moves is decided by the whole mesh; "
+        "leave it out");
+  options.local_repartition = "off";
+}
+
 generate_options make_generate_options(const mesh_options& options) {
   constexpr double most_by_default = 2e6; // elements, where nothing says how large they are
   generate_options result;
@@ -160,6 +174,7 @@ generate_options make_generate_options(const mesh_options& options) {
     result.subdomains = *options.subdomains;
   }
   result.only = subdomains_in(options.only);
+  result.only_around = options.alone;
   if (!result.only.empty() && options.ranks)
     throw command_line_error("--only: --ranks divides whole meshes; leave one of them out");
   if (!result.only.empty() && options.order == 2)

@@ -104,8 +104,9 @@ expect_error "more than any machine can hold" plan "$inputs/cube.off" --size 3e-
 # NaN is in no range.
 for option in "view mesh.vtu --png view.png --explode" "view mesh.vtu --png view.png --under" "adapt mesh.vtu -o next.vtu --size 1 --feature-angle" \
   "simulate trace.json --workers 2 --latency" "mesh no_such_file.step --coarsening"; do
-  expect_usage_error "${option##* }: .*nan is no number" $option nan
+  expect_usage_error "${option##* }: .*nan is no decimal number" $option nan
 done
+expect_usage_error "0x10 is no decimal number" mesh no_such_file.step -s 0x10
 
 # As few elements as a model allows, where fewer are wanted.
 elements_for() { # number: sets $made

@@ -157,6 +157,24 @@ expect_success mesh "$inputs/cube.off" --size 0.1 --only 0 --format none --repor
 [[ $(figure of_subdomains) == 1 ]] || fault "a mesh of one piece is divided for --only"
 expect_error "there is no subdomain 6: there are 6, numbered from 0" "${some[@]}" --only 2,6
 expect_error "there is no subdomain 2147483646: there are 6" "${some[@]}" --only 2147483646-2147483647
+
+# Alone, as in the whole mesh without local repartition.
+many=(mesh "$inputs/cube.off" --size 0.04 --subdomains 150 --report report.json)
+faces() { figure faces; }
+expect_success "${many[@]}" --only 3,5 --local-repartition off
+hash=$(figure mesh_hash)
+of_whole=$(faces)
+expect_success "${many[@]}" --only 3,5 --alone
+[[ $(figure mesh_hash) == "$hash" ]] || fault "other pieces when they are made alone"
+(($(faces) < of_whole / 2)) || fault "$(faces) coarse faces around two pieces, and $of_whole in all"
+check_mesh
+expect_success mesh "$inputs/cube.off" --size 0.1 --subdomains 1 --only 0 --alone --format none
+expect_success "${some[@]}" --out "$inputs/alone" --only 2 --local-repartition off
+expect_success "${some[@]}" --out "$inputs/alone" --only 2 --alone --resume # the run before is another one
+grep -q "this run is finished" "$sandbox/stdout" && fault "a piece made alone is taken for one that was not"
+expect_usage_error "--alone: give the subdomains with --only" mesh nothing.off --alone
+expect_usage_error "--alone is for tetrahedra" mesh nothing.off --alone --only 1 --dimension 2
+expect_usage_error "--alone: which interfaces --local-repartition moves" mesh nothing.off --alone --only 1 --local-repartition on
 for list in x 3-1 1- 2x 1.5 99999999999; do
   expect_usage_error "--only: '$list' is neither the number of a subdomain nor a range like 12-15" mesh nothing.off --only $list
 done

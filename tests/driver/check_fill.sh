@@ -92,6 +92,13 @@ expect_success fill "$inputs/turned.stl" -o mesh.vtu
 grep -q "^warning: triangle 0 at .*all that is enclosed is filled" "$sandbox/stderr" || fault "no warning"
 [[ $(printed "Volume") == 64 ]] || fault "another volume"
 
+# A sheet of triangles far larger than it is thick.
+write_cube | sed -E '3,10s/ ([01])$/ 0.0\1/' >"$inputs/sheet.off"
+expect_success fill "$inputs/sheet.off" -o mesh.vtu
+grep -q "^warning: .* % of the tetrahedra are under 12 degrees" "$sandbox/stderr" || fault "not a word on flat tetrahedra"
+expect_success fill "$inputs/cube.off" -o mesh.vtu
+grep -q "under 12 degrees" "$sandbox/stderr" && fault "flat tetrahedra in a cube"
+
 # Faults.
 expect_error "no_such.stl" fill no_such.stl -o mesh.vtu
 sed '/^3 0 2 1$/d; s/^8 12 0/8 11 0/' "$inputs/cube.off" >"$inputs/open.off"

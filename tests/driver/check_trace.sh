@@ -69,6 +69,11 @@ expect_usage_error "cores-per-node" simulate "$inputs/0.1.json" --memory-per-nod
 
 made_of "geometry 0 10  finishing 10 5" 280000 >"$inputs/no_scheme.json"
 made_of "$stages" 0 >"$inputs/no_elements.json"
+sed 's/"subject": "[^"]*"/"subject": "another.step"/' "$inputs/0.06.json" >"$inputs/another.json"
+expect_success simulate "$inputs/0.1.json" "$inputs/another.json" --elements 1e9
+grep -q "^warning: the traces are of cube.off and of another.step" "$sandbox/stderr" || fault "not a word on traces of two models"
+expect_success simulate "$inputs/0.1.json" "$inputs/0.06.json" --elements 1e9
+grep -q "^warning" "$sandbox/stderr" && fault "a warning of traces of one model"
 expect_usage_error "give --elements or one trace" simulate "$inputs/0.1.json" "$inputs/0.06.json"
 expect_error "no stage of the entire scheme" simulate "$inputs/no_scheme.json"
 expect_error "made no elements" simulate "$inputs/no_elements.json"

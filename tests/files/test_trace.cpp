@@ -18,6 +18,7 @@ execution_trace small_trace() {
   trace.batches = {{"meshing", 1.5, 9, {{0, 1, 0.25, 3.5, 1000}, {1, 0, 0.125, 7, 0}}, 1},
                    {"finishing", 9, 9.25, {{0, 0, 0, 0.125, 16}}, 0, true}};
   trace.sizes = {5000, 70000, 12345.5};
+  trace.subject = "wing \"a\".step, --dimension 2";
   return trace;
 }
 
@@ -31,6 +32,7 @@ TEST_CASE("A trace is read back as it was written, and its events are those of t
 
   execution_trace without_sizes = small_trace();
   without_sizes.sizes = {};
+  without_sizes.subject = {};
   io::write_trace(without_sizes, scratch / "older.json");
   CHECK(io::read_trace(scratch / "older.json") == without_sizes);
 

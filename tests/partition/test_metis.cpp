@@ -14,7 +14,7 @@ TEST_CASE("METIS, recursive, satisfies the partitioner contract") {
   dovetail_test::check_partitioner_contract(partition::metis{.recursive = true}, 1.03);
 }
 
-TEST_CASE("METIS tries four partitions of small graphs and one of large ones") {
+TEST_CASE("METIS tries four partitions of small graphs into few parts and one of others") {
   const auto trials_that_serve = [](int cubes, int least_parts) {
     const csr_graph graph = dovetail_test::element_graph(dovetail_test::jittered_cubes(cubes));
     bool differ = false; // one and four need not give different partitions each time
@@ -30,6 +30,8 @@ TEST_CASE("METIS tries four partitions of small graphs and one of large ones") {
     return found;
   };
   CHECK(trials_that_serve(12, 10) == std::vector{4}); // 10,368 nodes
+  CHECK(trials_that_serve(12, 59) == std::vector{4}); // up to 64 parts
+  CHECK(trials_that_serve(12, 65) == std::vector{1});
   CHECK(trials_that_serve(26, 10) == std::vector{1}); // 105,456 nodes
 }
 

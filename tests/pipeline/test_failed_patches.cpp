@@ -1,9 +1,13 @@
 #include "dovetail/intersection/crossing_refinement.hpp"
 #include "dovetail/pipeline/crossings.hpp"
+#include "dovetail/skeleton/segment_matching.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 using namespace dovetail;
 
@@ -68,4 +72,37 @@ TEST_CASE("a face that stays folded over, also when refined, is named") {
       "the surface of face 1 (blend) crosses itself or stays folded over, also when refined; "
       "repair the model there or give a smaller size",
       intersection_error);
+}
+
+TEST_CASE("only the lines of what fails on matched lines are as before, or the nearest where none of these "
+          "was matched") {
+  surface_mesh surface;
+  surface.mesh.elements = {{0, 1, 3}};
+  coarse_skeleton coarse = skeleton();
+  coarse.lines.push_back({{1, 4}, {3, no_id}, {}, {}});
+  for (const std::size_t matched : {1U, 3U})
+    coarse.lines[matched].segments = 5, coarse.lines[matched].bias = 0.25;
+  const coarse_skeleton before = coarse;
+  const auto segments_after = [&](patch_failure failure, std::size_t changed) {
+    coarse = before;
+    CHECK(unmatch_segments(std::vector{std::move(failure)}, surface, coarse) == changed);
+    std::vector<int> segments;
+    for (const skeleton_line& line : coarse.lines) {
+      segments.push_back(line.segments);
+      CHECK(line.bias == (line.segments == 0 ? 0 : 0.25));
+    }
+    return segments;
+  };
+  patch_failure of_face, of_region;
+  of_face.face = 0;
+  of_region.region = 0; // with the points 0, 1 and 3
+  CHECK(segments_after(of_face, 1) == std::vector{0, 0, 0, 5});
+  CHECK(segments_after(of_region, 1) == std::vector{0, 0, 0, 5}); // from 1 to 2, and to 0 and 2
+  coarse_skeleton& far = coarse; // where no line leads to one that was matched
+  for (skeleton_line& line : far.lines)
+    line.segments = 0;
+  far.lines.push_back({{7, 8}, {3, no_id}, {}, {}});
+  far.lines.back().segments = 5;
+  CHECK(unmatch_segments(std::vector{of_face}, surface, far) == 0);
+  CHECK(far.lines.back().segments == 5);
 }

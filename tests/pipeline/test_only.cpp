@@ -1,6 +1,8 @@
+#include "pipeline/decomposed_shell.hpp"
 #include "pipeline/plane_meshes.hpp"
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/decomposition/skeleton_part.hpp"
 #include "dovetail/mesh/distributed_validity.hpp"
 #include "dovetail/mesh/mid_nodes.hpp"
 #include "dovetail/mesh/selected_pieces.hpp"
@@ -22,9 +24,11 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -136,6 +140,32 @@ void require_as_in_whole() {
   }
 }
 
+/// What a mesh is made of whose pieces are made alone, and the whole of it.
+struct divided_model {
+  any_geometry model;
+  double size = 0;
+  generate_options options;
+
+  generated<3> mesh(std::vector<local_id> only) const {
+    generate_options given = options;
+    given.repartition_locally = false;
+    given.only_around = !only.empty();
+    given.only = std::move(only);
+    return generate<3>(model, uniform_size(size), parameters<>{}.with_options(given));
+  }
+};
+
+auto warnings_of_unseen(const generated<3>& made) {
+  const auto& warnings = made.summary.children[5].warnings;
+  return std::count_if(warnings.begin(), warnings.end(),
+                       [](const auto& text) { return testing::has(text, "made in other runs may not fit"); });
+}
+
+bool is_same_piece(const distributed_mesh& one, const distributed_mesh& other, local_id k) {
+  const auto a = one.load(0), b = other.load(k);
+  return a.mesh.points == b.mesh.points && a.mesh.elements == b.mesh.elements && a.mesh.tags == b.mesh.tags;
+}
+
 /// The native mesher, which fails in large pieces.
 struct refuses_large_pieces {
   static constexpr mesher_traits traits = mesher::native::traits;
@@ -156,6 +186,106 @@ TEST_CASE("some pieces of tetrahedra are bit for bit as in the whole mesh") {
 }
 TEST_CASE("some pieces of triangles are bit for bit as in the whole mesh") {
   require_as_in_whole<2>();
+}
+
+TEST_CASE("a piece made alone is as in the whole mesh, of whose skeleton less is made") {
+  const divided_model box{any_geometry(dented_box()), 0.05, in_parts(100)};
+  const auto whole = box.mesh({});
+  REQUIRE(whole.failures.empty());
+  REQUIRE(whole.mesh.counts.size() == 100);
+  const auto counts_of = [](const generated<3>& made) {
+    return made.summary.children[3].as<skeleton_counts>();
+  };
+  REQUIRE(counts_of(whole).matched_lines > 0);
+  std::size_t most_triangles = 0;
+  for (local_id k = 0; k < 100; k += 9) {
+    const auto alone = box.mesh({k});
+    REQUIRE(alone.failures.empty());
+    REQUIRE(alone.mesh.counts.size() == 1);
+    CHECK(alone.subdomains == 100);
+    CHECK(is_same_piece(alone.mesh, whole.mesh, k));
+    CHECK(sides_of<3>(alone.mesh, {0}) == sides_of<3>(whole.mesh, {k}));
+    CHECK(alone.fine_angles.interface_faces > 0);
+    most_triangles = std::max(most_triangles, counts_of(alone).triangles);
+  }
+  CHECK(most_triangles < 3 * counts_of(whole).triangles / 4);
+}
+
+TEST_CASE("around a piece is what may cross it, also across a gap") {
+  simplicial_mesh<3> mesh; // three tetrahedra side by side, and two above a gap: a near and a far one
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {1, 1, 0}, {2, 0, 0}};
+  mesh.elements = {{0, 1, 2, 3}, {1, 2, 3, 4}, {1, 4, 5, 6}};
+  for (const double height : {1.5, 9.0}) {
+    const auto first = static_cast<local_id>(mesh.points.size());
+    for (const vec3 p : {vec3{0, 0, 0}, vec3{1, 0, 0}, vec3{0, 1, 0}, vec3{0, 0, 1}})
+      mesh.points.push_back(p + vec3{0, 0, height});
+    mesh.elements.push_back({first, first + 1, first + 2, first + 3});
+  }
+  const std::vector<local_id> subdomains{0, 1, 2, 3, 4};
+  const auto around = points_with_surroundings(mesh, subdomains, std::vector<local_id>{0});
+  std::vector<bool> expected(mesh.points.size(), true);
+  std::fill(expected.end() - 4, expected.end(), false);
+  CHECK(around == expected);
+  const std::vector<local_id> alone{0, 1, 1, 2, 2}; // of a subdomain that touches it all points are
+  CHECK(points_with_surroundings(mesh, alone, std::vector<local_id>{0}) == expected);
+}
+
+TEST_CASE("where all pieces are made alone they are merged as in the whole mesh") {
+  divided_model thin{any_geometry(testing::shell(0.992)), 0.2, in_parts(20)};
+  thin.options.coarse_scale = testing::flat_in_shells;
+  thin.options.largest_merged_fraction = 1;
+  std::vector<local_id> all(20);
+  std::iota(all.begin(), all.end(), 0);
+  const auto whole = thin.mesh({});
+  const auto pieces = static_cast<local_id>(whole.mesh.counts.size());
+  REQUIRE(pieces < 20);
+  CHECK(warnings_of_unseen(whole) == 0);
+  const auto alone = thin.mesh(all); // where all are wanted, all is seen
+  CHECK(warnings_of_unseen(alone) == 0);
+  CHECK(alone.only.size() == alone.mesh.counts.size());
+  REQUIRE(alone.mesh.counts.size() == whole.mesh.counts.size());
+  for (local_id k = 0; k < pieces; ++k)
+    CHECK(alone.mesh.load(k).mesh.points == whole.mesh.load(k).mesh.points);
+}
+
+TEST_CASE("a piece that is made alone after merges has another number, and says that others may not fit") {
+  divided_model thick{any_geometry(testing::shell(0.95)), 0.2, in_parts(24)};
+  thick.options.coarse_scale = testing::flat_in_shells;
+  thick.options.largest_merged_fraction = 1;
+  const auto whole = thick.mesh({});
+  REQUIRE(whole.mesh.counts.size() < 24);
+  std::size_t same = 0, renumbered = 0;
+  for (const local_id before : {0, 5, 10, 20}) {
+    const auto alone = thick.mesh({before});
+    REQUIRE(alone.only.size() == 1);
+    const local_id now = alone.only.front();
+    REQUIRE(now < static_cast<local_id>(alone.subdomains));
+    CHECK(warnings_of_unseen(alone) == (alone.subdomains < 24 ? 1 : 0));
+    renumbered += now != before ? 1 : 0;
+    if (alone.subdomains == whole.subdomains) // it has seen the same crossings
+      same += is_same_piece(alone.mesh, whole.mesh, now) ? 1 : 0;
+  }
+  CHECK(renumbered > 1);
+  CHECK(same > 1);
+}
+
+TEST_CASE("pieces are not made alone where that cannot be") {
+  const auto refusal = [](auto dimension, const generate_options& options) {
+    return testing::refusal_of<usage_error>([&] {
+      return generate<dimension()>(dented_box(), uniform_size(0.2), parameters<>{}.with_options(options));
+    });
+  };
+  const std::integral_constant<int, 2> plane;
+  const std::integral_constant<int, 3> solid;
+  generate_options options = parts_with(6, {1});
+  options.only_around = true;
+  CHECK(testing::has(refusal(solid, options), "needs generate_options::repartition_locally = false"));
+  options.repartition_locally = false;
+  CHECK(testing::has(refusal(plane, options), "is for tetrahedra"));
+  options.only = {6};
+  CHECK(testing::has(refusal(solid, options), "there is no subdomain 6"));
+  options.only = {};
+  CHECK(testing::has(refusal(solid, options), "needs subdomains in generate_options::only"));
 }
 
 TEST_CASE("a piece that there is not is refused by its number") {

@@ -54,7 +54,8 @@ struct metis {
   bool recursive = false;  ///< recursive bisection instead of k-way
   int seed = 1;            ///< other seeds give other parts
   /// Partitions tried, of which the one with the smallest cut is taken. 0: four of graphs of up to 100,000
-  /// nodes, and one of larger ones, where four take four times as long for a cut that is hardly smaller.
+  /// nodes in up to 64 parts, and one of others, where four take four times as long for a cut that is hardly
+  /// smaller.
   int trials = 0;
 
   /// The part in [0, parts) of every node. Throws `partition_error` when there are fewer nodes than parts,
@@ -72,6 +73,8 @@ struct metis {
   }
 
 private:
+  static int default_trials(local_id nodes, int parts) { return nodes > 100'000 || parts > 64 ? 1 : 4; }
+
   /// METIS can keep parts connected, but only when the graph is.
   static bool has_one_component(const csr_graph& graph) {
     const std::vector<local_id> one(graph.node_weights.size(), 0);
@@ -88,7 +91,7 @@ private:
     options[METIS_OPTION_SEED] = seed;
     options[METIS_OPTION_NUMBERING] = 0;
     options[METIS_OPTION_CONTIG] = has_one_component(graph) ? 1 : 0;
-    options[METIS_OPTION_NCUTS] = trials > 0 ? trials : graph.node_count() > 100'000 ? 1 : 4;
+    options[METIS_OPTION_NCUTS] = trials > 0 ? trials : default_trials(graph.node_count(), parts);
     options[METIS_OPTION_UFACTOR] = std::max(1, static_cast<idx_t>(std::lround((imbalance - 1) * 1000)));
     idx_t n = graph.node_count();
     idx_t constraints = 1;

@@ -2,10 +2,13 @@
 /// What `skeleton_part.hpp` declares.
 #pragma once
 
+#include "dovetail/core/box_tree.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/decomposition/skeleton_part.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <set>
 #include <vector>
 
 namespace dovetail {
@@ -35,6 +38,47 @@ DOVETAIL_INLINE coarse_skeleton part_at_points(coarse_skeleton skeleton, const s
     return !is_in_part[line.vertices[0]] || !is_in_part[line.vertices[1]];
   });
   return skeleton;
+}
+
+DOVETAIL_INLINE std::vector<bool> points_with_surroundings(const simplicial_mesh<3>& mesh,
+                                                           std::span<const local_id> subdomain_of_element,
+                                                           std::span<const local_id> wanted) {
+  const auto box_of = [&](std::size_t e) {
+    box3 box;
+    for (const local_id v : mesh.elements[e])
+      box.include(mesh.points[v]);
+    return box;
+  };
+  std::vector<bool> points(mesh.points.size(), false);
+  const auto take = [&](std::size_t e) {
+    for (const local_id v : mesh.elements[e])
+      points[v] = true;
+  };
+  std::vector<box3> reach;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (std::binary_search(wanted.begin(), wanted.end(), subdomain_of_element[e])) {
+      take(e);
+      reach.push_back(inflated(box_of(e), box_of(e).diagonal() / 2));
+    }
+  const box_tree in_reach(reach);
+  const auto is_near = [&](const box3& box) {
+    bool found = false;
+    in_reach.for_each([&](const box3& node, std::size_t) { return !found && node.overlaps(box); },
+                      [&](local_id item) { found = found || reach[item].overlaps(box); });
+    return found;
+  };
+  const std::vector<bool> of_wanted = points;
+  std::set<local_id> touching;
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (std::any_of(mesh.elements[e].begin(), mesh.elements[e].end(),
+                    [&](local_id v) { return of_wanted[v]; }))
+      touching.insert(subdomain_of_element[e]);
+    else if (is_near(box_of(e)))
+      take(e);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e)
+    if (touching.contains(subdomain_of_element[e]))
+      take(e);
+  return points;
 }
 
 } // namespace dovetail

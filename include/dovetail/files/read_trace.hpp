@@ -31,6 +31,8 @@ public:
     if (about.find("largest_piece") != nullptr) // older traces have none of these
       trace_.sizes = {number(about, "background_elements", 0, 1e18), number(about, "skeleton_sides", 0, 1e18),
                       number(about, "largest_piece", 1, 1e18)};
+    if (about.find("subject") != nullptr)
+      trace_.subject = text(about, "subject");
     for (const auto& event : member(root, "traceEvents").items)
       if (text(event, "ph") == "X")
         add(event);

@@ -84,6 +84,8 @@ inline void write_trace(const execution_trace& trace, const std::filesystem::pat
   file.number(trace.elements);
   file.text(", \"seconds\": ");
   file.number(trace.seconds);
+  if (!trace.subject.empty())
+    file.text(", \"subject\": \"" + detail::json_escaped(trace.subject) + "\"");
   if (trace.sizes.are_known()) {
     file.text(", \"background_elements\": ");
     file.number(trace.sizes.background_elements);

@@ -59,6 +59,7 @@ struct execution_trace {
   double seconds = 0;                   ///< of the whole run
   std::vector<stage_span> stages = {};  ///< in the order they began
   std::vector<batch_span> batches = {}; ///< in the order they were given
+  std::string subject = {};             ///< what was meshed; empty where it is not known
 
   friend bool operator==(const execution_trace&, const execution_trace&) = default;
 };

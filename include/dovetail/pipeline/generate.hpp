@@ -47,9 +47,10 @@ struct generated {
   simplicial_background<D> background;        ///< without a volume where there is one subdomain
   std::vector<local_id> subdomain_of_element; ///< of the background mesh
   std::size_t subdomains = 0;                 ///< of the decomposition; pieces may be asked for of some only
+  std::vector<local_id> only;                 ///< those that were, as numbered after merges; empty: all
   mesh_plan plan;                             ///< what was known before anything was meshed
   interface_angles coarse_angles;             ///< of the coarse skeleton, before merges
-  interface_angles fine_angles;               ///< of the interfaces of the mesh
+  interface_angles fine_angles;               ///< of the interfaces of the mesh; or around `only_around`
   quality_statistics quality;                 ///< of all elements
   std::vector<piece_failure> failures;
   report summary; ///< children: background, simplification, partition, skeleton, intersection, meshing
@@ -98,6 +99,7 @@ generated<D> generate(const G& given_model, const H& given_size, const Parameter
     const erased_sizing size(given_size);
     const auto& given = bind_parameters<D>(policies);
     detail::require_growing_only(given.options);
+    detail::require_separable<D>(given.options);
     auto result = generate_from_background<D>(model, make_background<D>(model, size, given), given);
     if constexpr (D == 3 && requires { given_model.volume(); })
       if (given.options.only.empty())

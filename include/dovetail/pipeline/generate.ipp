@@ -58,8 +58,9 @@ std::optional<generated<D>> generate_once(const any_geometry& model, background_
   result.fine_angles = rounds.take_fine_angles();
   result.quality = meshed.quality;
   result.mesh = assemble_mesh<D>(model, std::move(skeleton.fine), meshed);
-  if (const auto& only = given.options.only; !only.empty())
-    result.mesh = selected_pieces<D>(result.mesh, only);
+  result.only = rounds.wanted();
+  if (!result.only.empty())
+    result.mesh = selected_pieces<D>(result.mesh, result.only);
   result.failures = std::move(meshed.failures);
   result.summary.name = "generate";
   result.summary.children = {std::move(background.summary), std::move(divided.simplification),
@@ -75,6 +76,7 @@ template <int D, bound_parameters<D> Parameters>
 generated<D> generate_from_background(const any_geometry& model, background_result<D> background,
                                       const Parameters& wanted) {
   detail::require_growing_only(wanted.options);
+  detail::require_separable<D>(wanted.options);
   const stopwatch clock;
   Parameters given = wanted;
   const parallel::clock_watch watch(wanted.run_tasks, wanted.options.limit_seconds);
@@ -99,6 +101,10 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
     }
     if (subdomains <= 1)
       throw intersection_error(too_many_merges);
+    if (given.options.only_around)
+      throw intersection_error(
+          "pieces cannot be made alone here, as the whole mesh would be divided into fewer: " +
+          too_many_merges + "; give half as many subdomains");
     account.warnings.push_back(std::to_string(subdomains) + " subdomains were too many, so " +
                                std::to_string(subdomains / 2) + " were asked for: " + too_many_merges);
     report kept = account;

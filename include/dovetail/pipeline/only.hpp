@@ -1,5 +1,5 @@
 /// @file
-/// Checks of `generate_options::only`.
+/// Checks of `generate_options::only` and `only_around`.
 #pragma once
 
 #include "dovetail/core/error.hpp"
@@ -10,6 +10,20 @@
 #include <string>
 
 namespace dovetail::detail {
+
+/// Throws `usage_error` where pieces are to be made without the rest, and cannot.
+template <int D>
+void require_separable(const generate_options& options) {
+  if (!options.only_around)
+    return;
+  if (D == 2)
+    throw usage_error("generate_options::only_around is for tetrahedra");
+  if (options.only.empty())
+    throw usage_error("generate_options::only_around needs subdomains in generate_options::only");
+  if (options.repartition_locally)
+    throw usage_error("generate_options::only_around needs generate_options::repartition_locally = false: "
+                      "which interfaces move is decided by the whole decomposition");
+}
 
 /// Throws `usage_error` where the subdomains do not grow, each once, from 0.
 inline void require_growing_only(const generate_options& options) {

@@ -48,6 +48,12 @@ struct generate_options {
   /// Subdomains of which alone the pieces are made, growing; empty: of all. Each is, bit for bit, as in the
   /// whole mesh, as long as in that no subdomain fails, and in D = 2 no pieces cross.
   std::vector<local_id> only = {};
+  /// D = 3, and `only` is not empty: of the skeleton only what lies around these subdomains is made, so that
+  /// time and memory are those of the background mesh and of these pieces, however large the mesh is. Needs
+  /// `repartition_locally` = false, as the whole decides which interfaces move. The pieces are those of the
+  /// whole mesh as long as nothing that crosses has to be repaired: around them a warning tells, elsewhere
+  /// nobody knows. `only` counts subdomains as they are before any are merged.
+  bool only_around = false;
   double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above
   /// How heavy the simplification may make a super-element; its `subdomains` are those of the mesh, whatever
   /// is given.

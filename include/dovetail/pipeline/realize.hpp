@@ -100,7 +100,7 @@ realized<D> realize(const any_geometry& model, const simplicial_background<D>& m
 
 /// The same of what has one of some points of the background mesh in D = 3: all patches there, and their
 /// lines. At these points it is nearly what `realize` makes: patches farther off may change the numbers of
-/// segments of lines, all of them where one fails. A curve is as long as its lines that are there. Costs what
+/// segments of lines. A curve is as long as its lines that are there. Costs what
 /// there is there, and a walk over the background mesh.
 /// \param is_wanted per point of the background mesh
 template <bound_parameters<3> Parameters>
@@ -108,6 +108,17 @@ realized<3> realize_part(const any_geometry& model, const simplicial_background<
                          const divided_background<3>& divided, std::vector<local_id> subdomain_of_element,
                          std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
                          const Parameters& given, const std::vector<bool>& is_wanted);
+
+/// `realize` of what bounds the subdomains `given.options.only`, numbered as in `subdomain_of_element`, with
+/// what may cross it, and as far on from there as it takes: until one more ring of elements changes nothing
+/// of what bounds them. Numbers of segments are chosen one face after the other, so this is no proof that
+/// they are as in the whole; it was so in each case tried (docs/benchmarks.md). Costs what there is there,
+/// once more for each ring, and some walks over the background mesh.
+template <bound_parameters<3> Parameters>
+realized<3> realize_around(const any_geometry& model, const simplicial_background<3>& mesh,
+                           const divided_background<3>& divided, std::vector<local_id> subdomain_of_element,
+                           std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
+                           const Parameters& given);
 
 } // namespace dovetail
 

@@ -77,7 +77,7 @@ realized<2> realize_boundaries(const any_geometry& model, const simplicial_backg
 }
 
 /// The patches of a skeleton, where wanted on lines with numbers of segments that suit each other. Better
-/// small angles than patches that fail: then on the lines as they were.
+/// small angles than patches that fail: their lines are as they were then.
 template <bound_parameters<3> Parameters>
 skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized<3>& result,
                                           skeleton_memo& made, const Parameters& given) {
@@ -100,11 +100,12 @@ skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized
   result.counts.matching_seconds = clock.seconds();
   if (matched > 0)
     patches = fill_again();
-  if (matched > 0 && !patches.failures.empty()) {
-    for (skeleton_line& line : result.coarse.lines)
-      line.segments = 0, line.bias = 0;
+  while (matched > 0 && !patches.failures.empty()) {
+    const std::size_t unmatched = unmatch_segments(patches.failures, of.surface, result.coarse);
+    if (unmatched == 0)
+      break;
+    matched -= unmatched;
     patches = fill_again();
-    matched = 0;
   }
   result.counts.matched_lines = matched;
   return patches;
@@ -184,6 +185,65 @@ realized<3> realize_part(const any_geometry& model, const simplicial_background<
   return result;
 }
 
+namespace detail {
+
+/// The names of the patches that bound some subdomains.
+inline std::vector<kept<patch_mesh>> patches_around(const realized<3>& made,
+                                                    std::span<const local_id> subdomains) {
+  const auto is_one = [&](local_id s) { return std::binary_search(subdomains.begin(), subdomains.end(), s); };
+  std::vector<kept<patch_mesh>> patches;
+  std::size_t patch = 0;
+  const auto look_at = [&](const auto& region_or_face) {
+    const auto& [behind, in_front] = region_or_face.subdomains;
+    if (is_one(behind) || is_one(in_front))
+      patches.push_back(made.patches.of_patch[patch]);
+    ++patch;
+  };
+  std::for_each(made.coarse.regions.begin(), made.coarse.regions.end(), look_at);
+  std::for_each(made.coarse.faces.begin(), made.coarse.faces.end(), look_at);
+  return patches;
+}
+
+} // namespace detail
+
+template <bound_parameters<3> Parameters>
+realized<3> realize_around(const any_geometry& model, const simplicial_background<3>& mesh,
+                           const divided_background<3>& divided, std::vector<local_id> subdomain_of_element,
+                           std::size_t subdomains, const refined_sizing& size, skeleton_memo& made,
+                           const Parameters& given) {
+  if (mesh.volume.elements.empty()) // not divided: what there is are the solids
+    return realize<3>(model, mesh, divided, std::move(subdomain_of_element), subdomains, size, made, given);
+  const stopwatch clock;
+  const std::size_t lines_before = made.lines.made(), patches_before = made.patches.meshes.made();
+  const coarse_skeleton whole = detail::skeleton_between(mesh, divided, subdomain_of_element);
+  auto around = points_with_surroundings(mesh.volume, subdomain_of_element, given.options.only);
+  std::vector<kept<patch_mesh>> bounds;
+  const auto is_settled = [&](const realized<3>& result) {
+    if (!result.is_part || !result.patches.failures.empty())
+      return true;
+    const auto before = std::exchange(bounds, detail::patches_around(result, given.options.only));
+    return bounds == before;
+  };
+  realized<3> result;
+  double line_seconds = 0, matching_seconds = 0;
+  do {
+    result = detail::realize_skeleton<3>(model, mesh, divided, part_at_points(whole, mesh.surface, around),
+                                         subdomain_of_element, subdomains, size, made, given);
+    line_seconds += result.counts.line_seconds;
+    matching_seconds += result.counts.matching_seconds;
+    auto farther = points_around<3>(mesh.volume.elements, around);
+    result.is_part = farther != around;
+    around = std::move(farther);
+  } while (!is_settled(result));
+  result.counts.line_seconds = line_seconds;
+  result.counts.matching_seconds = matching_seconds;
+  result.counts.lines_made = made.lines.made() - lines_before;
+  result.counts.patches_made = made.patches.meshes.made() - patches_before;
+  result.summary.set(result.counts);
+  result.summary.seconds = clock.seconds();
+  return result;
+}
+
 #ifdef DOVETAIL_COMPILED
 template realized<2> realize<2>(const any_geometry& model, const simplicial_background<2>& mesh,
                                 const divided_background<2>& divided,
@@ -200,6 +260,11 @@ template realized<3> realize_part(const any_geometry& model, const simplicial_ba
                                   std::vector<local_id> subdomain_of_element, std::size_t subdomains,
                                   const refined_sizing& size, skeleton_memo& made,
                                   const any_parameters<3>& given, const std::vector<bool>& is_wanted);
+template realized<3> realize_around(const any_geometry& model, const simplicial_background<3>& mesh,
+                                    const divided_background<3>& divided,
+                                    std::vector<local_id> subdomain_of_element, std::size_t subdomains,
+                                    const refined_sizing& size, skeleton_memo& made,
+                                    const any_parameters<3>& given);
 #endif
 
 } // namespace dovetail

@@ -6,6 +6,7 @@
 #include "dovetail/core/vector.hpp"
 #include "dovetail/decomposition/interface_angles.hpp"
 #include "dovetail/decomposition/local_repartition.hpp"
+#include "dovetail/decomposition/skeleton_part.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/realize.hpp"
 
@@ -124,7 +125,8 @@ private:
         break;
       ++rounds_;
       here.moved += moved;
-      const sight there = looks_at(here.subdomain_of_element, points_around(changed));
+      const sight there =
+          looks_at(here.subdomain_of_element, points_around<D>(mesh_.elements().elements, changed));
       if (there.crossings) {
         here.subdomain_of_element = before;
         here.moved -= moved;
@@ -183,15 +185,6 @@ private:
         for (const local_id v : mesh_.elements().elements[e])
           changed[v] = true;
     return changed;
-  }
-  /// These points, and those that share an element with one.
-  std::vector<bool> points_around(const std::vector<bool>& points) const {
-    std::vector<bool> around = points;
-    for (const auto& element : mesh_.elements().elements)
-      if (std::any_of(element.begin(), element.end(), [&](local_id v) { return points[v]; }))
-        for (const local_id v : element)
-          around[v] = true;
-    return around;
   }
   bool is_at(const std::vector<local_id>& place, const std::vector<bool>& points) const {
     return std::any_of(place.begin(), place.end(), [&](local_id side) {

@@ -17,6 +17,7 @@
 #include "dovetail/simplification/angles_of_rule.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <string>
@@ -42,6 +43,15 @@ public:
         repartition_(mesh, divided, given.options.repartition_locally), made_(given_.run_tasks),
         account_(std::move(account)), counts_(account_.as<intersection_counts>()) {
     account_.name = "intersection";
+    if (given.options.only_around) {
+      require_wanted();
+      const auto& wanted = given.options.only;
+      element_of_wanted_.resize(wanted.size());
+      for (std::size_t e = 0; e < state_.subdomain_of_element.size(); ++e)
+        if (const auto found = std::lower_bound(wanted.begin(), wanted.end(), state_.subdomain_of_element[e]);
+            found != wanted.end() && *found == state_.subdomain_of_element[e])
+          element_of_wanted_[static_cast<std::size_t>(found - wanted.begin())] = e;
+    }
   }
 
   decomposition_rounds(any_geometry&&, const simplicial_background<D>&, const divided_background<D>&,
@@ -62,9 +72,11 @@ public:
     account.set(counts);
     return account;
   }
+  /// The subdomains of which alone pieces are made, as they are numbered now; empty: all.
+  const std::vector<local_id>& wanted() const { return given_.options.only; }
   /// Why too many subdomains would have to be merged; empty as long as they would not.
   const std::string& too_many_merges() const { return too_many_merges_; }
-  /// The interface angles of what was last realized as a whole.
+  /// The interface angles of what was last realized as a whole, or around the pieces that alone are made.
   interface_angles take_fine_angles() { return std::move(angles_); }
 
   /// For a decomposition that is not gone on with: its finished pieces are not kept. Returns the account,
@@ -127,6 +139,11 @@ private:
       append(state_.warnings, wanted->warnings);
       too_many_merges_ = wanted->too_many_merges;
       apply(*wanted, state_);
+      if (given_.options.only_around && wanted->changes_anything()) {
+        follow_wanted();
+        if (sees_part_)
+          warn_of_unseen();
+      }
       return wanted->changes_anything();
     };
     return (does(steps) || ...);
@@ -155,11 +172,34 @@ private:
     return places;
   }
 
+  /// What was wanted by its number before merges is wanted by the one that it has now.
+  void follow_wanted() {
+    given_.options.only.clear();
+    for (const std::size_t e : element_of_wanted_)
+      given_.options.only.push_back(state_.subdomain_of_element[e]);
+    sort_unique(given_.options.only);
+  }
+  /// What is done about crossings is decided from all of them, of which only those around some pieces are
+  /// seen.
+  void warn_of_unseen() {
+    const std::string warning = "boundaries crossed around these pieces and were repaired; with what crosses "
+                                "elsewhere the whole mesh may be repaired otherwise there, so that pieces "
+                                "made in other runs may not fit";
+    auto& warnings = state_.warnings;
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
+  }
+
   realized<D> realize_once() {
+    if constexpr (D == 3)
+      if (given_.options.only_around)
+        return counted(realize_around(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(),
+                                      state_.size, made_, given_));
     return counted(realize<D>(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(), state_.size,
                               made_, given_));
   }
   realized<D> counted(realized<D> made) {
+    sees_part_ = made.is_part;
     skeleton_seconds_ += made.summary.seconds;
     made.summary.seconds = skeleton_seconds_;
     return made;
@@ -206,7 +246,7 @@ private:
         detail::fine_interface_angles(made, mesh_, divided_, size(), wanted_angles_of<D>(given_.simplify_by),
                                       given_.run_tasks, given_.options.on_progress.only_stopping());
     auto places = detail::places_of_small_angles(made, angles);
-    if (!made.is_part)
+    if (!made.is_part || given_.options.only_around)
       angles_ = std::move(angles);
     account_.seconds += clock.seconds();
     return places;
@@ -218,13 +258,15 @@ private:
   Parameters given_;
   decomposition_state state_;
   repartition_rounds<D> repartition_;
-  interface_angles angles_; ///< of what was last realized as a whole
+  interface_angles angles_; ///< of what was last realized as a whole, or around what is wanted
   skeleton_memo made_;
   std::set<kept<finished_piece<D>>> finished_; ///< of all rounds
   report account_;                             ///< of decompositions before and of this one
   intersection_counts counts_;
   double skeleton_seconds_ = 0;
   std::string too_many_merges_;
+  bool sees_part_ = false;                     ///< of the skeleton, in what was last realized
+  std::vector<std::size_t> element_of_wanted_; ///< one of each, where the skeleton is made around these alone
 };
 
 } // namespace dovetail

@@ -6,6 +6,7 @@
 
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/mesh/simplicial_mesh.hpp"
 #include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
@@ -19,6 +20,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -190,6 +192,41 @@ std::size_t match_segments(const any_geometry& model, std::span<const vec3> coar
   return static_cast<std::size_t>(
       std::count_if(skeleton.lines.begin(), skeleton.lines.end(),
                     [](const skeleton_line& line) { return line.segments != 0; }));
+}
+
+/// Gives the lines of patches that failed the segments that the sizes ask for; where none of these has
+/// others, the lines nearest to them, from line to line. Returns how many had. Linear for each step.
+/// \param failures what came of patches on matched lines
+/// \param surface the coarse surface that regions are of
+/// \param skeleton whose lines change
+inline std::size_t unmatch_segments(std::span<const patch_failure> failures, const surface_mesh& surface,
+                                    coarse_skeleton& skeleton) {
+  std::set<local_id> points; // of what failed
+  const auto take = [&](const auto& vertices) { points.insert(vertices.begin(), vertices.end()); };
+  for (const patch_failure& failure : failures) {
+    if (failure.face != no_id)
+      take(skeleton.faces[failure.face].vertices);
+    if (failure.region != no_id)
+      for (const local_id t : skeleton.regions[failure.region].triangles)
+        take(surface.mesh.elements[t]);
+  }
+  for (;;) {
+    std::size_t changed = 0;
+    for (skeleton_line& line : skeleton.lines)
+      if (line.segments != 0 && points.contains(line.vertices[0]) && points.contains(line.vertices[1])) {
+        line.segments = 0;
+        line.bias = 0;
+        ++changed;
+      }
+    std::set<local_id> more;
+    for (const skeleton_line& line : skeleton.lines)
+      for (const std::size_t k : {0U, 1U})
+        if (points.contains(line.vertices[k]) && !points.contains(line.vertices[1 - k]))
+          more.insert(line.vertices[1 - k]);
+    if (changed > 0 || more.empty())
+      return changed;
+    points.merge(more);
+  }
 }
 
 } // namespace dovetail

@@ -35,6 +35,7 @@ struct workload {
   double elements = 0;                      ///< of the mesh that it makes
   std::vector<simulated_stage> stages = {}; ///< in their order
   mesh_sizes sizes = {};                    ///< what the memory of a rank goes with
+  std::string subject = {};                 ///< what is meshed; empty where it is not known
 };
 
 /// The stages of a trace by their names, in the order in which they are first met; a batch belongs to the
@@ -43,7 +44,7 @@ struct workload {
 inline workload workload_of(const execution_trace& trace) {
   if (trace.stages.empty())
     throw usage_error("a trace without stages cannot be simulated; give the progress of the run to traced");
-  workload work{.elements = trace.elements, .sizes = trace.sizes};
+  workload work{.elements = trace.elements, .sizes = trace.sizes, .subject = trace.subject};
   const auto stage_called = [&](const std::string& name) -> simulated_stage& {
     const auto found = std::find_if(work.stages.begin(), work.stages.end(),
                                     [&](const simulated_stage& s) { return s.stage == name; });
