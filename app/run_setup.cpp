@@ -94,6 +94,19 @@ std::vector<local_id> subdomains_in(const std::vector<std::string>& list) {
   return numbers;
 }
 
+void check_alone(const mesh_options& options) {
+  if (!options.alone)
+    return;
+  if (options.only.empty())
+    throw command_line_error("--alone: give the subdomains with --only");
+  if (options.dimension == 2)
+    throw command_line_error("--alone is for tetrahedra; with --dimension 2 give --only without it");
+  if (options.local_repartition == "on")
+    throw command_line_error(
+        "--alone: which interfaces --local-repartition moves is decided by the whole mesh; "
+        "leave it out");
+}
+
 } // namespace
 
 template <int D>
@@ -147,17 +160,8 @@ void choose_as_paper(mesh_options& options) {
 }
 
 void choose_for_alone(mesh_options& options) {
-  if (!options.alone)
-    return;
-  if (options.only.empty())
-    throw command_line_error("--alone: give the subdomains with --only");
-  if (options.dimension == 2)
-    throw command_line_error("--alone is for tetrahedra; with --dimension 2 give --only without it");
-  if (options.local_repartition == "on")
-    throw command_line_error(
-        "--alone: which interfaces --local-repartition moves is decided by the whole mesh; "
-        "leave it out");
-  options.local_repartition = "off";
+  if (options.alone && options.local_repartition.empty())
+    options.local_repartition = "off";
 }
 
 generate_options make_generate_options(const mesh_options& options) {
@@ -174,6 +178,7 @@ generate_options make_generate_options(const mesh_options& options) {
     result.subdomains = *options.subdomains;
   }
   result.only = subdomains_in(options.only);
+  check_alone(options);
   result.only_around = options.alone;
   if (!result.only.empty() && options.ranks)
     throw command_line_error("--only: --ranks divides whole meshes; leave one of them out");

@@ -14,8 +14,7 @@ policies_of<D> make_policies_of(const mesh_options& options);
 /// With `--paper` chooses as the paper does what is not chosen yet: METIS, its rule without a bound, equal
 /// weights, a raw background mesh, and interfaces as remeshing leaves them.
 void choose_as_paper(mesh_options& options);
-/// Chooses what pieces are made with that are made alone; `command_line_error` where something else was
-/// asked.
+/// With `--alone` local repartition is off where nothing else is chosen.
 void choose_for_alone(mesh_options& options);
 
 /// Throws `command_line_error` for numbers out of range.

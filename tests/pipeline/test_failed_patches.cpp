@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -79,8 +80,9 @@ TEST_CASE("only the lines of what fails on matched lines are as before, or the n
   surface_mesh surface;
   surface.mesh.elements = {{0, 1, 3}};
   coarse_skeleton coarse = skeleton();
-  coarse.lines.push_back({{1, 4}, {3, no_id}, {}, {}});
-  for (const std::size_t matched : {1U, 3U})
+  for (const std::array<local_id, 2>& vertices : {std::array{1, 4}, std::array{4, 9}})
+    coarse.lines.push_back({vertices, {3, no_id}, {}, {}});
+  for (const std::size_t matched : {1U, 3U, 4U})
     coarse.lines[matched].segments = 5, coarse.lines[matched].bias = 0.25;
   const coarse_skeleton before = coarse;
   const auto segments_after = [&](patch_failure failure, std::size_t changed) {
@@ -96,8 +98,8 @@ TEST_CASE("only the lines of what fails on matched lines are as before, or the n
   patch_failure of_face, of_region;
   of_face.face = 0;
   of_region.region = 0; // with the points 0, 1 and 3
-  CHECK(segments_after(of_face, 1) == std::vector{0, 0, 0, 5});
-  CHECK(segments_after(of_region, 1) == std::vector{0, 0, 0, 5}); // from 1 to 2, and to 0 and 2
+  CHECK(segments_after(of_face, 1) == std::vector{0, 0, 0, 5, 5});
+  CHECK(segments_after(of_region, 2) == std::vector{0, 0, 0, 0, 5}); // one line farther, at 2 and 4
   coarse_skeleton& far = coarse; // where no line leads to one that was matched
   for (skeleton_line& line : far.lines)
     line.segments = 0;
