@@ -160,13 +160,12 @@ expect_error "there is no subdomain 2147483646: there are 6" "${some[@]}" --only
 
 # Alone, as in the whole mesh without local repartition.
 many=(mesh "$inputs/cube.off" --size 0.04 --subdomains 150 --report report.json)
-faces() { figure faces; }
 expect_success "${many[@]}" --only 3,5 --local-repartition off
 hash=$(figure mesh_hash)
-of_whole=$(faces)
+of_whole=$(figure faces)
 expect_success "${many[@]}" --only 3,5 --alone
 [[ $(figure mesh_hash) == "$hash" ]] || fault "other pieces when they are made alone"
-(($(faces) < of_whole / 2)) || fault "$(faces) coarse faces around two pieces, and $of_whole in all"
+(($(figure faces) < of_whole / 2)) || fault "$(figure faces) triangles of interfaces around two pieces, and $of_whole in all"
 check_mesh
 expect_success mesh "$inputs/cube.off" --size 0.1 --subdomains 1 --only 0 --alone --format none
 expect_success "${some[@]}" --out "$inputs/alone" --only 2 --local-repartition off

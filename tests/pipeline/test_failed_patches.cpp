@@ -100,11 +100,10 @@ TEST_CASE("only the lines of what fails on matched lines are as before, or the n
   of_region.region = 0; // with the points 0, 1 and 3
   CHECK(segments_after(of_face, 1) == std::vector{0, 0, 0, 5, 5});
   CHECK(segments_after(of_region, 2) == std::vector{0, 0, 0, 0, 5}); // one line farther, at 2 and 4
-  coarse_skeleton& far = coarse; // where no line leads to one that was matched
-  for (skeleton_line& line : far.lines)
+  for (skeleton_line& line : coarse.lines)
     line.segments = 0;
-  far.lines.push_back({{7, 8}, {3, no_id}, {}, {}});
-  far.lines.back().segments = 5;
-  CHECK(unmatch_segments(std::vector{of_face}, surface, far) == 0);
-  CHECK(far.lines.back().segments == 5);
+  coarse.lines.push_back({{7, 8}, {3, no_id}, {}, {}}); // to which no line leads
+  coarse.lines.back().segments = 5;
+  CHECK(unmatch_segments(std::vector{of_face}, surface, coarse) == 0);
+  CHECK(coarse.lines.back().segments == 5);
 }
