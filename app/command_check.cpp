@@ -340,6 +340,20 @@ int check_file(const std::filesystem::path& file, std::vector<std::filesystem::p
   });
 }
 
+/// Whether a report lists what is at a path, or something below it.
+bool is_of_run(const std::filesystem::path& path, const report_files& run) {
+  std::error_code failure;
+  const auto is_here = [&](std::filesystem::path file) {
+    for (; file.has_relative_path(); file = file.parent_path())
+      if (std::filesystem::equivalent(file, path, failure))
+        return true;
+    return false;
+  };
+  return std::any_of(run.files.begin(), run.files.end(), [&](const written_file& file) {
+    return is_here(std::filesystem::absolute(run.folder / file.name, failure));
+  });
+}
+
 /// Of a folder, each mesh in it.
 int check_mesh(const std::filesystem::path& path) {
   std::error_code failure;
@@ -371,9 +385,17 @@ int check_mesh(const std::filesystem::path& path) {
 int run_check(const check_options& options) {
   if (options.mesh.empty() && options.report.empty())
     throw command_line_error("check: give a mesh file, or --report with the report of a run, or both");
-  const int files =
-      options.report.empty() ? exit_ok : check_files(files_of_report(options.report), options.report);
-  const int mesh = options.mesh.empty() ? exit_ok : check_mesh(options.mesh);
+  if (options.report.empty())
+    return check_mesh(options.mesh);
+  const report_files run = files_of_report(options.report);
+  const int files = check_files(run, options.report);
+  if (options.mesh.empty())
+    return files;
+  const int mesh = check_mesh(options.mesh);
+  if (mesh == exit_ok && !is_of_run(options.mesh, run)) {
+    complain(options.report + ": of another run: it lists none of the files of " + options.mesh);
+    return exit_failure;
+  }
   return files == exit_ok ? mesh : files;
 }
 

@@ -179,7 +179,7 @@ generate_options make_generate_options(const mesh_options& options) {
   }
   result.only = subdomains_in(options.only);
   check_alone(options);
-  result.only_around = options.alone;
+  result.alone = options.alone;
   if (!result.only.empty() && options.ranks)
     throw command_line_error("--only: --ranks divides whole meshes; leave one of them out");
   if (!result.only.empty() && options.order == 2)

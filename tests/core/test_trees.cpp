@@ -75,6 +75,24 @@ TEST_CASE("the least value over a box tree is that of a search through all") {
   CHECK(valued < 40 * centers.size()); // few of the 500 are looked at
 }
 
+TEST_CASE("a box tree tells whether one of its boxes overlaps another") {
+  std::vector<box3> boxes;
+  for (const vec3& p : random_points(60, 5))
+    boxes.push_back({p, p + vec3{0.1, 0.05, 0.1}});
+  const box_tree tree(boxes, 2);
+  std::size_t overlapping = 0;
+  for (const vec3& p : random_points(400, 6)) {
+    const box3 other{p, p + vec3{0.02, 0.1, 0.02}};
+    const bool expected =
+        std::any_of(boxes.begin(), boxes.end(), [&](const box3& box) { return box.overlaps(other); });
+    CHECK(tree.any_overlaps(boxes, other) == expected);
+    overlapping += expected ? 1 : 0;
+  }
+  CHECK(overlapping > 20);
+  CHECK(overlapping < 380);
+  CHECK(!box_tree(std::vector<box3>{}).any_overlaps({}, boxes[0]));
+}
+
 TEST_CASE("a search goes to the child that is preferred first") {
   const std::vector<vec3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
   const box_tree tree(boxes_of_points(points, itself), 1);

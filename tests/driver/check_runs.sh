@@ -462,6 +462,7 @@ check_report() { # expression, status
 }
 mesh --size 0.2 --subdomains 2
 check_report "5 files are as they were written" 0
+rm -rf "$sandbox/kept" && cp -r "$sandbox/work" "$sandbox/kept"
 [[ $(stat -c %s "$sandbox/work/out/mesh_0001.vtu") == "$(grep -A1 mesh_0001 "$sandbox/work/report.json" | tr -dc '0-9\n' | tail -n 1)" ]] ||
   fault "another size in the report"
 printf x | dd of="$sandbox/work/out/mesh_0001.vtu" bs=1 seek=3000 conv=notrunc 2>/dev/null
@@ -473,6 +474,11 @@ check_report "mesh_0000.vtu is missing, .*mesh_0001.vtu has another size" 1
 expect_error "not a report" check --report "$inputs/cube.off"
 expect_error "cannot read" check --report nowhere.json
 expect_usage_error "give a mesh file" check
+cp -r "$sandbox/kept/out" "$sandbox/kept/copy"
+for mesh in out out/mesh.pvtu; do
+  expect_success check "$sandbox/kept/$mesh" --report "$sandbox/kept/report.json"
+  expect_error "of another run: it lists none of the files of" check "$sandbox/kept/copy${mesh#out}" --report "$sandbox/kept/report.json"
+done
 
 # Triangles by every mesher that is offered.
 of_triangles=$("$driver" mesh --help | tr -s ' \n' ' ' | sed -n 's/.*; of triangles: \([a-z, ]*\) -.*/\1/p' | tr -d ,)

@@ -149,7 +149,7 @@ struct divided_model {
   generated<3> mesh(std::vector<local_id> only) const {
     generate_options given = options;
     given.repartition_locally = false;
-    given.only_around = !only.empty();
+    given.alone = !only.empty();
     given.only = std::move(only);
     return generate<3>(model, uniform_size(size), parameters<>{}.with_options(given));
   }
@@ -278,7 +278,7 @@ TEST_CASE("pieces are not made alone where that cannot be") {
   const std::integral_constant<int, 2> plane;
   const std::integral_constant<int, 3> solid;
   generate_options options = parts_with(6, {1});
-  options.only_around = true;
+  options.alone = true;
   CHECK(testing::has(refusal(solid, options), "needs generate_options::repartition_locally = false"));
   options.repartition_locally = false;
   CHECK(testing::has(refusal(plane, options), "is for tetrahedra"));

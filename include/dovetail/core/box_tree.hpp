@@ -107,6 +107,14 @@ public:
            [](std::size_t, std::size_t) { return false; });
   }
 
+  /// Whether one of the boxes that the tree is of overlaps another box.
+  bool any_overlaps(const std::vector<box3>& boxes, const box3& other) const {
+    bool found = false;
+    for_each([&](const box3& around, std::size_t) { return !found && around.overlaps(other); },
+             [&](local_id item) { found = found || boxes[item].overlaps(other); });
+    return found;
+  }
+
   /// As `for_each`, nearer child first: with `enter` comparing against the best distance so far this is a
   /// nearest-item search.
   template <class Enter, class Visit>

@@ -61,19 +61,13 @@ DOVETAIL_INLINE std::vector<bool> points_with_surroundings(const simplicial_mesh
       reach.push_back(inflated(box_of(e), box_of(e).diagonal() / 2));
     }
   const box_tree in_reach(reach);
-  const auto is_near = [&](const box3& box) {
-    bool found = false;
-    in_reach.for_each([&](const box3& node, std::size_t) { return !found && node.overlaps(box); },
-                      [&](local_id item) { found = found || reach[item].overlaps(box); });
-    return found;
-  };
   const std::vector<bool> of_wanted = points;
   std::set<local_id> touching;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     if (std::any_of(mesh.elements[e].begin(), mesh.elements[e].end(),
                     [&](local_id v) { return of_wanted[v]; }))
       touching.insert(subdomain_of_element[e]);
-    else if (is_near(box_of(e)))
+    else if (in_reach.any_overlaps(reach, box_of(e)))
       take(e);
   for (std::size_t e = 0; e < mesh.elements.size(); ++e)
     if (touching.contains(subdomain_of_element[e]))

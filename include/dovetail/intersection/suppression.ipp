@@ -35,12 +35,7 @@ DOVETAIL_INLINE surface_crossing describe_crossing(std::span<const vec3> points,
 /// The triangles that are not known to be apart, and those near them; growing.
 inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, const known_apart& known) {
   const box_tree others(known.around_others);
-  const auto is_near_others = [&](const box3& box) {
-    bool is_near = false;
-    others.for_each([&](const box3& node, std::size_t) { return !is_near && node.overlaps(box); },
-                    [&](local_id other) { is_near = is_near || known.around_others[other].overlaps(box); });
-    return is_near;
-  };
+  const auto is_near_others = [&](const box3& box) { return others.any_overlaps(known.around_others, box); };
   const triangle_blocks blocks(skeleton.points, skeleton.sides);
   std::vector<local_id> near;
   for (std::size_t b = 0; b < blocks.size(); ++b) {

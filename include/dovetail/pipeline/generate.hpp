@@ -50,7 +50,7 @@ struct generated {
   std::vector<local_id> only;                 ///< those that were, as numbered after merges; empty: all
   mesh_plan plan;                             ///< what was known before anything was meshed
   interface_angles coarse_angles;             ///< of the coarse skeleton, before merges
-  interface_angles fine_angles;               ///< of the interfaces of the mesh; or around `only_around`
+  interface_angles fine_angles;               ///< of the interfaces of the mesh; or around `alone`
   quality_statistics quality;                 ///< of all elements
   std::vector<piece_failure> failures;
   report summary; ///< children: background, simplification, partition, skeleton, intersection, meshing

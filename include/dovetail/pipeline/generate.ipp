@@ -101,7 +101,7 @@ generated<D> generate_from_background(const any_geometry& model, background_resu
     }
     if (subdomains <= 1)
       throw intersection_error(too_many_merges);
-    if (given.options.only_around)
+    if (given.options.alone)
       throw intersection_error(
           "pieces cannot be made alone here, as the whole mesh would be divided into fewer: " +
           too_many_merges + "; give half as many subdomains");

@@ -1,5 +1,5 @@
 /// @file
-/// Checks of `generate_options::only` and `only_around`.
+/// Checks of `generate_options::only` and `alone`.
 #pragma once
 
 #include "dovetail/core/error.hpp"
@@ -14,14 +14,14 @@ namespace dovetail::detail {
 /// Throws `usage_error` where pieces are to be made without the rest, and cannot.
 template <int D>
 void require_separable(const generate_options& options) {
-  if (!options.only_around)
+  if (!options.alone)
     return;
   if (D == 2)
-    throw usage_error("generate_options::only_around is for tetrahedra");
+    throw usage_error("generate_options::alone is for tetrahedra");
   if (options.only.empty())
-    throw usage_error("generate_options::only_around needs subdomains in generate_options::only");
+    throw usage_error("generate_options::alone needs subdomains in generate_options::only");
   if (options.repartition_locally)
-    throw usage_error("generate_options::only_around needs generate_options::repartition_locally = false: "
+    throw usage_error("generate_options::alone needs generate_options::repartition_locally = false: "
                       "which interfaces move is decided by the whole decomposition");
 }
 

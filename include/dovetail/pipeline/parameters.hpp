@@ -53,7 +53,7 @@ struct generate_options {
   /// `repartition_locally` = false, as the whole decides which interfaces move. The pieces are those of the
   /// whole mesh as long as nothing that crosses has to be repaired: around them a warning tells, elsewhere
   /// nobody knows. `only` counts subdomains as they are before any are merged.
-  bool only_around = false;
+  bool alone = false;
   double coarse_scale = 0; ///< factor between coarse and final size; 0: from the above
   /// How heavy the simplification may make a super-element; its `subdomains` are those of the mesh, whatever
   /// is given.

@@ -43,7 +43,7 @@ public:
         repartition_(mesh, divided, given.options.repartition_locally), made_(given_.run_tasks),
         account_(std::move(account)), counts_(account_.as<intersection_counts>()) {
     account_.name = "intersection";
-    if (given.options.only_around) {
+    if (given.options.alone) {
       require_wanted();
       const auto& wanted = given.options.only;
       element_of_wanted_.resize(wanted.size());
@@ -139,7 +139,7 @@ private:
       append(state_.warnings, wanted->warnings);
       too_many_merges_ = wanted->too_many_merges;
       apply(*wanted, state_);
-      if (given_.options.only_around && wanted->changes_anything()) {
+      if (given_.options.alone && wanted->changes_anything()) {
         follow_wanted();
         if (sees_part_)
           warn_of_unseen();
@@ -192,7 +192,7 @@ private:
 
   realized<D> realize_once() {
     if constexpr (D == 3)
-      if (given_.options.only_around)
+      if (given_.options.alone)
         return counted(realize_around(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(),
                                       state_.size, made_, given_));
     return counted(realize<D>(model_, mesh_, divided_, state_.subdomain_of_element, subdomains(), state_.size,
@@ -246,7 +246,7 @@ private:
         detail::fine_interface_angles(made, mesh_, divided_, size(), wanted_angles_of<D>(given_.simplify_by),
                                       given_.run_tasks, given_.options.on_progress.only_stopping());
     auto places = detail::places_of_small_angles(made, angles);
-    if (!made.is_part || given_.options.only_around)
+    if (!made.is_part || given_.options.alone)
       angles_ = std::move(angles);
     account_.seconds += clock.seconds();
     return places;

@@ -20,6 +20,7 @@
 #include <map>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace dovetail::detail {
@@ -102,28 +103,26 @@ using faces_in_turn = std::vector<local_id>;
 /// changes its own lines, and looks at those of the faces beside it.
 class matching_passes {
 public:
-  matching_passes(const matched_skeleton& skeleton, const std::vector<local_id>& faces)
-      : skeleton_(skeleton) {
-    std::vector<local_id> crowded;
-    for (faces_in_turn& group : groups_of(faces))
-      if (group.size() > most_in_turn)
-        append(crowded, group);
-      else
-        put(0, std::move(group));
-    sort_all(crowded);
-    add_levels(crowded);
+  matching_passes(const matched_skeleton& skeleton, std::vector<local_id> faces) : skeleton_(skeleton) {
+    while (!faces.empty()) {
+      passes_.emplace_back();
+      std::vector<local_id> crowded;
+      for (faces_in_turn& group : groups_of(faces))
+        if (group.size() > most_in_turn)
+          append(crowded, group);
+        else
+          passes_.back().push_back(std::move(group));
+      sort_all(crowded);
+      faces = without_first(crowded, passes_.back());
+    }
   }
 
   const std::vector<std::vector<faces_in_turn>>& passes() const { return passes_; }
 
 private:
-  /// Of more faces that wait for each other in one place, those that do not are mended side by side.
+  /// Of more faces that wait for each other in one place, those that do not are mended side by side. What is
+  /// left of them then falls into groups that are apart.
   static constexpr std::size_t most_in_turn = 32;
-
-  void put(std::size_t pass, faces_in_turn group) {
-    passes_.resize(std::max(passes_.size(), pass + 1));
-    passes_[pass].push_back(std::move(group));
-  }
 
   /// Faces between which there is a chain of such that one of two looks at what the other one changes.
   std::vector<faces_in_turn> groups_of(const std::vector<local_id>& faces) const {
@@ -146,21 +145,25 @@ private:
     return groups;
   }
 
-  /// A face comes behind all before it that change what it looks at; these are those that look at what it
-  /// changes.
-  void add_levels(const std::vector<local_id>& faces) {
-    std::unordered_map<local_id, std::size_t> free_from; // per line that is changed: the first level behind
+  /// Moves the faces that look at nothing that one before them changes to a pass; returns the others.
+  std::vector<local_id> without_first(const std::vector<local_id>& faces,
+                                      std::vector<faces_in_turn>& pass) const {
+    std::unordered_set<local_id> changing; // lines
+    std::vector<local_id> others;
     for (const local_id f : faces) {
-      std::size_t level = 0;
+      bool is_first = true;
       skeleton_.for_each_beside(f, [&](local_id other) {
         for (const local_id line : skeleton_.sides(other))
-          if (const auto found = free_from.find(line); found != free_from.end())
-            level = std::max(level, found->second);
+          is_first = is_first && !changing.contains(line);
       });
+      if (is_first)
+        pass.push_back({f});
+      else
+        others.push_back(f);
       for (const local_id line : skeleton_.sides(f))
-        free_from[line] = level + 1;
-      put(level, {f});
+        changing.insert(line);
     }
+    return others;
   }
 
   const matched_skeleton& skeleton_;
