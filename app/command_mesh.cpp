@@ -1,7 +1,6 @@
 #include "commands.hpp"
 #include "failure.hpp"
 #include "finished_run.hpp"
-#include "huge_pages.hpp"
 #include "model_source.hpp"
 #include "output.hpp"
 #include "output_formats.hpp"
@@ -317,13 +316,6 @@ private:
 
   progress callbacks() {
     progress shown = lines_ ? lines_->callbacks() : progress{.stop_requested = stop_was_requested};
-    shown.update = [this, show = std::move(shown.update)](std::string_view stage, std::size_t done,
-                                                          std::size_t total) {
-      if (done == 0)
-        huge_pages_.ask();
-      if (show)
-        show(stage, done, total);
-    };
     return trace_ ? trace_->watch(std::move(shown)) : shown;
   }
 
@@ -580,7 +572,6 @@ private:
   touching_faces touching_;
   suppression suppression_;
   std::vector<output_format<D>> formats_;
-  huge_pages huge_pages_;
   std::optional<terminal_progress> lines_;
   run_figures figures_;
   mesh_sizes sizes_; ///< while the mesh was made

@@ -281,6 +281,38 @@ TEST_CASE("a mesh whose surface is known by points is found by the outline of it
   CHECK(made_with(false, 0.5) == 0);
 }
 
+TEST_CASE("a mesh whose boundary is known by the names of its lines is found by these and its surface") {
+  region_memo store;
+  const auto made_with = [&](std::uint64_t line_of_second, double at, bool refined) {
+    listed_regions both = cushion();
+    both.surface_points = {{{1, 0, 0}}, {{at, 0, 0}}};
+    region_set set = both.set();
+    set.outline_of = [listed = both.regions](std::size_t r) {
+      patch_boundary outline = listed[r].boundary;
+      outline.uv.clear();
+      outline.points.clear();
+      return outline;
+    };
+    set.lines_of = [=](std::size_t r) {
+      return std::vector<content_key>{{7}, {r == 0 ? 8 : line_of_second}};
+    };
+    refined_sizing size(coarse);
+    if (refined)
+      size.refine(std::vector<size_ball>{{{100, 100, 100}, 1, 1}}); // far away
+    const std::size_t before = store.meshes.made();
+    const auto result =
+        mesh_regions(model, set, any_surface_mesher(careless{}), size, parallel::serial{}, store, {});
+    CHECK(result.failures.empty());
+    CHECK(result.labels.size() == 2);
+    return store.meshes.made() - before;
+  };
+  CHECK(made_with(9, 2, false) == 3); // one of them again without the other one's diagonal
+  CHECK(made_with(9, 2, false) == 0);
+  CHECK(made_with(9, 2, true) == 0); // of the whole region, by the same name
+  CHECK(made_with(10, 2, false) == 2);
+  CHECK(made_with(10, 3, false) == 2);
+}
+
 TEST_CASE("chords are found again among meshes that were made before") {
   region_memo store;
   const auto mesh = [&](listed_regions set) {

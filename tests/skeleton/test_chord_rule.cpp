@@ -48,7 +48,7 @@ struct cut_cube {
         if (part[t] == face && height(mesh.surface.mesh.elements[t]) > 0.5)
           part[t] = 6 + face;
     coarse = extract_skeleton(mesh.surface, own_subdomains(part));
-    lines = number_lines(coarse, std::vector<fine_line>(coarse.lines.size()), mesh.surface.mesh.points,
+    lines = number_lines(coarse, {std::vector<fine_line>(coarse.lines.size()), {}}, mesh.surface.mesh.points,
                          mesh.surface.vertex_hosts);
     fine = skeleton_of_lines(mesh.surface, build_sides(mesh.surface.mesh), part, lines);
   }

@@ -52,7 +52,7 @@ struct two_faces {
     };
     auto patches = fill();
     matched =
-        match_segments(no_lines_on_it, points, skeleton, lines.lines,
+        match_segments(no_lines_on_it, points, skeleton, {lines.lines, lines.names},
                        faces_with_small_angles(patches, skeleton, made_patches, least_angle_deg), size,
                        least_angle_deg, any_surface_mesher(), parallel::serial{}, made_segments, on_progress);
     return join_patches(of, matched == 0 ? std::move(patches) : fill(), parallel::serial{}, made_patches);
@@ -178,7 +178,7 @@ TEST_CASE("faces that look at each other's lines are mended in their order, the 
       }
     CHECK(turns.size() == wanted.size());
     CHECK((passes.size() > 1) == (of_hundred == 100));
-    CHECK(passes.size() < 32); // not as many as faces wait for each other in a row
+    CHECK(passes.size() < 60); // not as many as faces that wait for each other in a row
     CHECK(groups > wanted.size() / 32);
 
     bool in_order = true;

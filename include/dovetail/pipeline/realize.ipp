@@ -94,9 +94,10 @@ skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized
   const double wanted = wanted_angles_of<3>(given.simplify_by).face_deg;
   std::size_t matched = 0;
   if (given.options.match_segments && patches.failures.empty())
-    matched = match_segments(of.model, of.coarse_points, result.coarse, result.lines.lines,
-                             faces_with_small_angles(patches, result.coarse, made.patches, wanted), of.size,
-                             wanted, given.mesh_surface, given.run_tasks, made.segments, on_progress);
+    matched =
+        match_segments(of.model, of.coarse_points, result.coarse, {result.lines.lines, result.lines.names},
+                       faces_with_small_angles(patches, result.coarse, made.patches, wanted), of.size, wanted,
+                       given.mesh_surface, given.run_tasks, made.segments, on_progress);
   result.counts.matching_seconds = clock.seconds();
   if (matched > 0)
     patches = fill_again();

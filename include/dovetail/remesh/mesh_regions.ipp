@@ -153,8 +153,11 @@ private:
 
   /// Labels are numbers of the present set; what counts of them is which points have the same one (poles),
   /// and which edges are forbidden.
-  kept<patch_mesh> kept_mesh(std::size_t r, const surface_region& region) const {
-    const patch_boundary& b = region.boundary;
+  struct places_of_labels {
+    std::vector<local_id> same_label;  ///< per point: the first with its label
+    std::vector<simplex<1>> forbidden; ///< edges, by points
+  };
+  static places_of_labels places_of(const patch_boundary& b) {
     std::vector<std::pair<local_id, local_id>> by_label; // with the place
     for (std::size_t v = 0; v < b.labels.size(); ++v)
       by_label.emplace_back(b.labels[v], static_cast<local_id>(v));
@@ -163,22 +166,34 @@ private:
       const auto found = std::lower_bound(by_label.begin(), by_label.end(), std::pair(label, local_id{0}));
       return found != by_label.end() && found->first == label ? found->second : no_id;
     };
-    std::vector<local_id> same_label(b.labels.size());
+    places_of_labels places;
+    places.same_label.resize(b.labels.size());
     local_id first = no_id;
     for (std::size_t i = 0; i < by_label.size(); ++i) {
       const auto [label, v] = by_label[i];
       first = i > 0 && by_label[i - 1].first == label ? first : v;
-      same_label[v] = first;
+      places.same_label[v] = first;
     }
-    std::vector<simplex<1>> forbidden;
     for (const auto& [x, y] : b.forbidden_edges)
       if (const local_id at_x = first_with(x), at_y = first_with(y); at_x != no_id && at_y != no_id)
-        forbidden.push_back({at_x, at_y});
+        places.forbidden.push_back({at_x, at_y});
+    return places;
+  }
+
+  kept<patch_mesh> kept_mesh(std::size_t r, const surface_region& region) const {
+    const patch_boundary& b = region.boundary;
+    const auto by = [&](const auto&... boundary) {
+      return kept<patch_mesh>::of(region.face, region.size_factor, options_.attempts.folds,
+                                  options_.parameters, options_.deviation, options_.angles, boundary...,
+                                  size_.balls_near(place(model_, r, b)));
+    };
     const std::vector<vec3> surface = set_.points_of_surface(r);
-    return kept<patch_mesh>::of(region.face, region.size_factor, options_.attempts.folds, options_.parameters,
-                                options_.deviation, options_.angles, surface,
-                                surface.empty() ? b.uv : std::vector<vec2>{}, b.points, same_label,
-                                b.segments, forbidden, size_.balls_near(place(model_, r, b)));
+    if (const auto lines = set_.names_of_lines(r); !lines.empty())
+      return by(surface, lines,
+                b.forbidden_edges.empty() ? std::vector<simplex<1>>{} : places_of(b).forbidden);
+    const places_of_labels places = places_of(b);
+    return by(surface, surface.empty() ? b.uv : std::vector<vec2>{}, b.points, places.same_label, b.segments,
+              places.forbidden);
   }
 
   /// In tasks of many regions.

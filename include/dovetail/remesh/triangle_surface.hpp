@@ -63,13 +63,11 @@ private:
   std::array<displacement_curve, 3> displacement_;
 };
 
-/// The boundary of a whole interface face, counter-clockwise, without parameters. `sides` as for
-/// `triangle_surface`, every one with at least its two ends; `labels[i]` names the points of side i in the
-/// same order.
-patch_boundary triangle_outline(const std::array<std::vector<vec3>, 3>& sides,
-                                const std::array<std::vector<local_id>, 3>& labels);
+/// Segments from each of so many points to the next, and from the last to the first.
+std::vector<simplex<1>> segments_around(std::size_t points);
 
-/// The same with the parameters.
+/// The boundary of a whole interface face, counter-clockwise. `sides` as for `triangle_surface`, every one
+/// with at least its two ends; `labels[i]` names the points of side i in the same order.
 patch_boundary triangle_boundary(const triangle_surface& surface,
                                  const std::array<std::vector<vec3>, 3>& sides,
                                  const std::array<std::vector<local_id>, 3>& labels);

@@ -109,26 +109,26 @@ DOVETAIL_INLINE void triangle_surface::add_side(std::size_t i, const std::vector
   displacement_[i] = displacement_curve(at, std::move(displacement));
 }
 
-DOVETAIL_INLINE patch_boundary triangle_outline(const std::array<std::vector<vec3>, 3>& sides,
-                                                const std::array<std::vector<local_id>, 3>& labels) {
-  patch_boundary boundary;
-  for (std::size_t i = 0; i < 3; ++i) { // the last point starts the next side
-    boundary.points.insert(boundary.points.end(), sides[i].begin(), sides[i].end() - 1);
-    boundary.labels.insert(boundary.labels.end(), labels[i].begin(), labels[i].end() - 1);
-  }
-  const auto count = static_cast<local_id>(boundary.points.size());
+DOVETAIL_INLINE std::vector<simplex<1>> segments_around(std::size_t points) {
+  const auto count = static_cast<local_id>(points);
+  std::vector<simplex<1>> segments;
+  segments.reserve(points);
   for (local_id v = 0; v < count; ++v)
-    boundary.segments.push_back({v, (v + 1) % count});
-  return boundary;
+    segments.push_back({v, (v + 1) % count});
+  return segments;
 }
 
 DOVETAIL_INLINE patch_boundary triangle_boundary(const triangle_surface& surface,
                                                  const std::array<std::vector<vec3>, 3>& sides,
                                                  const std::array<std::vector<local_id>, 3>& labels) {
-  patch_boundary boundary = triangle_outline(sides, labels);
-  for (std::size_t i = 0; i < 3; ++i)
+  patch_boundary boundary;
+  for (std::size_t i = 0; i < 3; ++i) { // the last point starts the next side
+    boundary.points.insert(boundary.points.end(), sides[i].begin(), sides[i].end() - 1);
+    boundary.labels.insert(boundary.labels.end(), labels[i].begin(), labels[i].end() - 1);
     for (std::size_t j = 0; j + 1 < sides[i].size(); ++j)
       boundary.uv.push_back(surface.side_uv(i, j));
+  }
+  boundary.segments = segments_around(boundary.points.size());
   return boundary;
 }
 

@@ -7,6 +7,7 @@
 #include "dovetail/core/vector.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
+#include "dovetail/parallel/kept.hpp"
 
 #include <cstddef>
 #include <span>
@@ -23,10 +24,17 @@ struct fine_line {
   using fields = field_list<&fine_line::points, &fine_line::t, &fine_line::uv>;
 };
 
+/// The lines of a skeleton, in its order.
+struct remeshed_lines {
+  std::vector<fine_line> lines;       ///< their points
+  std::vector<kept<fine_line>> names; ///< of what these are a function of; may be empty
+};
+
 /// Remeshed lines with numbered points.
 struct numbered_lines {
   std::vector<skeleton_line> keys;              ///< as in the coarse skeleton
   std::vector<fine_line> lines;                 ///< in their order, as in the coarse skeleton
+  std::vector<kept<fine_line>> names;           ///< likewise; may be empty
   std::vector<local_id> first_point;            ///< per line: number of its first inner point
   std::vector<local_id> number_of_coarse_point; ///< no_id where the coarse point is not on the skeleton
   std::vector<vec3> points;                     ///< by their number
@@ -45,7 +53,7 @@ struct numbered_lines {
 /// \param lines one per line of the skeleton
 /// \param coarse_points of the background mesh
 /// \param coarse_hosts the CAD entity of each coarse point
-numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<fine_line> lines,
+numbered_lines number_lines(const coarse_skeleton& skeleton, remeshed_lines lines,
                             std::span<const vec3> coarse_points, std::span<const host> coarse_hosts);
 
 } // namespace dovetail

@@ -25,7 +25,7 @@ DOVETAIL_INLINE std::vector<local_id> numbered_lines::along(local_id line, local
   return numbers;
 }
 
-DOVETAIL_INLINE numbered_lines number_lines(const coarse_skeleton& skeleton, std::vector<fine_line> lines,
+DOVETAIL_INLINE numbered_lines number_lines(const coarse_skeleton& skeleton, remeshed_lines made,
                                             std::span<const vec3> coarse_points,
                                             std::span<const host> coarse_hosts) {
   numbered_lines result;
@@ -42,12 +42,13 @@ DOVETAIL_INLINE numbered_lines number_lines(const coarse_skeleton& skeleton, std
       result.points.push_back(coarse_points[v]);
       result.hosts.push_back(v < coarse_hosts.size() ? coarse_hosts[v] : host{});
     }
-  for (std::size_t l = 0; l < lines.size(); ++l) {
+  for (std::size_t l = 0; l < made.lines.size(); ++l) {
     result.first_point.push_back(static_cast<local_id>(result.points.size()));
-    append(result.points, lines[l].points);
+    append(result.points, made.lines[l].points);
     result.hosts.resize(result.points.size(), skeleton.lines[l].on);
   }
-  result.lines = std::move(lines);
+  result.lines = std::move(made.lines);
+  result.names = std::move(made.names);
   return result;
 }
 

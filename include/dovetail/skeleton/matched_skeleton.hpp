@@ -18,9 +18,9 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <span>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 namespace dovetail::detail {
@@ -104,66 +104,65 @@ using faces_in_turn = std::vector<local_id>;
 class matching_passes {
 public:
   matching_passes(const matched_skeleton& skeleton, std::vector<local_id> faces) : skeleton_(skeleton) {
-    while (!faces.empty()) {
-      passes_.emplace_back();
-      std::vector<local_id> crowded;
-      for (faces_in_turn& group : groups_of(faces))
-        if (group.size() > most_in_turn)
-          append(crowded, group);
-        else
-          passes_.back().push_back(std::move(group));
-      sort_all(crowded);
-      faces = without_first(crowded, passes_.back());
-    }
+    while (!faces.empty())
+      faces = left_by_pass(faces);
   }
 
   const std::vector<std::vector<faces_in_turn>>& passes() const { return passes_; }
 
 private:
-  /// Of more faces that wait for each other in one place, those that do not are mended side by side. What is
-  /// left of them then falls into groups that are apart.
-  static constexpr std::size_t most_in_turn = 32;
+  /// More faces that wait for each other in one place are left to later passes.
+  static constexpr double most_in_turn = 32;
 
-  /// Faces between which there is a chain of such that one of two looks at what the other one changes.
-  std::vector<faces_in_turn> groups_of(const std::vector<local_id>& faces) const {
-    std::unordered_map<local_id, std::vector<local_id>> changing; // per line: places in `faces`
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      for (const local_id line : skeleton_.sides(faces[i]))
-        changing[line].push_back(static_cast<local_id>(i));
+  /// Makes a pass of the first of these faces, in their order; returns those that are left. Of two that look
+  /// at what the other one changes, both are in turn, or the later one is left, or both are.
+  std::vector<local_id> left_by_pass(const std::vector<local_id>& faces) {
+    std::unordered_map<local_id, local_id> changed_by; // per line: a face in the pass, or no_id for one left
     disjoint_sets together(faces.size());
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      skeleton_.for_each_beside(faces[i], [&](local_id other) {
-        for (const local_id line : skeleton_.sides(other))
-          if (const auto found = changing.find(line); found != changing.end())
-            for (const local_id j : found->second)
-              together.unite(static_cast<local_id>(i), j);
-      });
-    const auto sets = together.number_sets();
-    std::vector<faces_in_turn> groups(sets.count);
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      groups[sets.of_member[i]].push_back(faces[i]);
+    std::vector<local_id> left, taken; // places in `faces`
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const auto place = static_cast<local_id>(i);
+      const std::set<local_id> before = groups_before(faces[i], changed_by, together);
+      double in_turn = 1;
+      for (const local_id group : before)
+        in_turn += group == no_id ? most_in_turn : together.weight(group);
+      const bool is_left = in_turn > most_in_turn;
+      (is_left ? left : taken).push_back(place);
+      for (const local_id line : skeleton_.sides(faces[i]))
+        changed_by[line] = is_left ? no_id : place;
+      if (!is_left)
+        for (const local_id group : before)
+          together.unite(group, place);
+    }
+    passes_.push_back(groups_of(faces, taken, together));
+    for (local_id& place : left)
+      place = faces[place];
+    return left;
+  }
+
+  /// The groups in which faces before this one change what it looks at; no_id for those that are left.
+  std::set<local_id> groups_before(local_id face, const std::unordered_map<local_id, local_id>& changed_by,
+                                   disjoint_sets& together) const {
+    std::set<local_id> groups;
+    skeleton_.for_each_beside(face, [&](local_id other) {
+      for (const local_id line : skeleton_.sides(other))
+        if (const auto found = changed_by.find(line); found != changed_by.end())
+          groups.insert(found->second == no_id ? no_id : together.find(found->second));
+    });
     return groups;
   }
 
-  /// Moves the faces that look at nothing that one before them changes to a pass; returns the others.
-  std::vector<local_id> without_first(const std::vector<local_id>& faces,
-                                      std::vector<faces_in_turn>& pass) const {
-    std::unordered_set<local_id> changing; // lines
-    std::vector<local_id> others;
-    for (const local_id f : faces) {
-      bool is_first = true;
-      skeleton_.for_each_beside(f, [&](local_id other) {
-        for (const local_id line : skeleton_.sides(other))
-          is_first = is_first && !changing.contains(line);
-      });
-      if (is_first)
-        pass.push_back({f});
-      else
-        others.push_back(f);
-      for (const local_id line : skeleton_.sides(f))
-        changing.insert(line);
+  static std::vector<faces_in_turn> groups_of(const std::vector<local_id>& faces,
+                                              const std::vector<local_id>& taken, disjoint_sets& together) {
+    std::vector<faces_in_turn> groups;
+    std::unordered_map<local_id, std::size_t> number; // of a group, by its root
+    for (const local_id place : taken) {
+      const auto [group, is_new] = number.try_emplace(together.find(place), groups.size());
+      if (is_new)
+        groups.emplace_back();
+      groups[group->second].push_back(faces[place]);
     }
-    return others;
+    return groups;
   }
 
   const matched_skeleton& skeleton_;

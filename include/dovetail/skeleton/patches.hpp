@@ -51,8 +51,9 @@ std::vector<std::array<local_id, 3>> lines_of_faces(const coarse_skeleton& skele
 compressed_rows<local_id> faces_of_lines(std::span<const std::array<local_id, 3>> lines_of_face,
                                          std::size_t lines);
 
-/// The boundary of an interface face without its parameters, which are a function of its corners and points.
-patch_boundary interface_outline(const skeleton_face& face, const numbered_lines& lines);
+/// The boundary of an interface face by labels alone: its points are a function of its corners and lines.
+patch_boundary interface_outline(const skeleton_face& face, const std::array<local_id, 3>& lines_of_face,
+                                 const numbered_lines& lines);
 
 /// Builds the patch of an interface face.
 interface_face_patch interface_patch(const skeleton_face& face, std::span<const vec3> coarse_points,

@@ -241,9 +241,17 @@ inline interface_sides sides_of(const skeleton_face& face, const numbered_lines&
 
 } // namespace detail
 
-DOVETAIL_INLINE patch_boundary interface_outline(const skeleton_face& face, const numbered_lines& lines) {
-  const auto sides = detail::sides_of(face, lines);
-  return remesh::triangle_outline(sides.points, sides.labels);
+DOVETAIL_INLINE patch_boundary interface_outline(const skeleton_face& face,
+                                                 const std::array<local_id, 3>& lines_of_face,
+                                                 const numbered_lines& lines) {
+  const simplex<2> key = key_order(face);
+  patch_boundary outline;
+  for (std::size_t i = 0; i < 3; ++i) { // the last point starts the next side
+    append(outline.labels, lines.along(lines_of_face[i], key[(i + 1) % 3]));
+    outline.labels.pop_back();
+  }
+  outline.segments = remesh::segments_around(outline.labels.size());
+  return outline;
 }
 
 DOVETAIL_INLINE interface_face_patch interface_patch(const skeleton_face& face,

@@ -45,10 +45,9 @@ kept<fine_line> kept_line(const skeleton_line& line, std::span<const vec3> coars
 /// \param run carries out independent tasks; the result does not depend on it
 /// \param made lines of earlier rounds; grows
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
-std::vector<fine_line> remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
-                                    std::span<const vec3> coarse_points, const refined_sizing& size,
-                                    const any_executor& run, memo<fine_line>& made,
-                                    const progress& on_progress = {});
+remeshed_lines remesh_lines(const any_geometry& model, std::span<const skeleton_line> lines,
+                            std::span<const vec3> coarse_points, const refined_sizing& size,
+                            const any_executor& run, memo<fine_line>& made, const progress& on_progress = {});
 
 } // namespace dovetail
 

@@ -12,6 +12,7 @@
 #include "dovetail/skeleton/remesh_skeleton.hpp"
 #include "dovetail/skeleton/skeleton_assembly.hpp"
 
+#include <array>
 #include <functional>
 #include <set>
 #include <span>
@@ -32,7 +33,7 @@ public:
                         : !same_turn(key_order(face_of(p)), face_of(p).vertices);
   }
 
-  region_set patches() const {
+  region_set patches() {
     region_set set;
     set.count = skeleton_.regions.size() + skeleton_.faces.size();
     set.build = [this](const any_geometry& own, std::size_t p) { return region(own, p); };
@@ -47,7 +48,19 @@ public:
           corners.push_back(coarse_points_[v]);
       return corners;
     };
-    set.outline_of = [this](std::size_t p) { return interface_outline(face_of(p), lines_); };
+    if (lines_.names.empty())
+      return set;
+    lines_of_face_ = lines_of_faces(skeleton_);
+    set.outline_of = [this](std::size_t p) {
+      return interface_outline(face_of(p), lines_of_face_[p - skeleton_.regions.size()], lines_);
+    };
+    set.lines_of = [this](std::size_t p) {
+      std::vector<content_key> names;
+      if (!is_region(p))
+        for (const local_id l : lines_of_face_[p - skeleton_.regions.size()])
+          names.push_back(lines_.names[l].key());
+      return names;
+    };
     return set;
   }
 
@@ -119,6 +132,7 @@ private:
   std::span<const vec3> coarse_points_;
   const coarse_skeleton& skeleton_;
   const numbered_lines& lines_;
+  std::vector<std::array<local_id, 3>> lines_of_face_;
 };
 
 DOVETAIL_INLINE skeleton_patches
@@ -126,7 +140,7 @@ mesh_patches_by(const skeleton_to_remesh& of,
                 const std::function<meshed_regions(region_set&, const mesh_regions_options&)>& mesh_them,
                 region_memo& made, const progress& on_progress) {
   const std::size_t made_before = made.meshes.made();
-  const skeleton_parts parts(of);
+  skeleton_parts parts(of);
   region_set set = parts.patches();
   skeleton_patches result;
   result.meshes = mesh_them(set, {.parameters = false,

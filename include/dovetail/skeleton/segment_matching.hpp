@@ -34,16 +34,13 @@ template <surface_mesher Mesher>
 class segment_matcher {
 public:
   segment_matcher(const any_geometry& model, std::span<const vec3> coarse_points, coarse_skeleton& coarse,
-                  std::vector<fine_line> lines, const refined_sizing& size, double threshold,
-                  const Mesher& mesher, const any_executor& run, matched_faces& made,
-                  const progress& on_progress)
-      : model_(model), coarse_points_(coarse_points), coarse_(coarse), lines_(std::move(lines)), size_(size),
-        threshold_(threshold), mesher_(mesher), run_(run), made_(made), on_progress_(on_progress),
-        lines_of_face_(lines_of_faces(coarse)),
-        faces_of_line_(faces_of_lines(lines_of_face_, coarse.lines.size())) {
-    for (const skeleton_line& line : coarse.lines)
-      fine_of_line_.push_back(kept_line(line, coarse_points, size));
-  }
+                  remeshed_lines lines, const refined_sizing& size, double threshold, const Mesher& mesher,
+                  const any_executor& run, matched_faces& made, const progress& on_progress)
+      : model_(model), coarse_points_(coarse_points), coarse_(coarse), lines_(std::move(lines.lines)),
+        size_(size), threshold_(threshold), mesher_(mesher), run_(run), made_(made),
+        on_progress_(on_progress), lines_of_face_(lines_of_faces(coarse)),
+        faces_of_line_(faces_of_lines(lines_of_face_, coarse.lines.size())),
+        fine_of_line_(std::move(lines.names)) {}
 
   /// Faces around what changed are tried in the next sweep, as they may be worse or easier to mend now.
   void run(std::vector<local_id> wanted) {
@@ -180,10 +177,9 @@ private:
 /// Throws `mesher_error` when a trial cannot be evaluated.
 template <surface_mesher Mesher>
 std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
-                           coarse_skeleton& skeleton, std::vector<fine_line> lines,
-                           std::vector<local_id> faces, const refined_sizing& size, double threshold_deg,
-                           const Mesher& mesher, const any_executor& run, matched_faces& made,
-                           const progress& on_progress = {}) {
+                           coarse_skeleton& skeleton, remeshed_lines lines, std::vector<local_id> faces,
+                           const refined_sizing& size, double threshold_deg, const Mesher& mesher,
+                           const any_executor& run, matched_faces& made, const progress& on_progress = {}) {
   if (faces.empty())
     return 0;
   detail::segment_matcher(model, coarse_points, skeleton, std::move(lines), size, threshold_deg, mesher, run,
