@@ -340,40 +340,36 @@ int check_file(const std::filesystem::path& file, std::vector<std::filesystem::p
   });
 }
 
-/// Whether a report lists what is at a path, or something below it.
-bool is_of_run(const std::filesystem::path& path, const report_files& run) {
+/// Whether a report lists one of these files.
+bool is_of_run(const std::vector<std::filesystem::path>& files, const report_files& run) {
   std::error_code failure;
-  const auto is_here = [&](std::filesystem::path file) {
-    for (; file.has_relative_path(); file = file.parent_path())
-      if (std::filesystem::equivalent(file, path, failure))
-        return true;
-    return false;
-  };
-  return std::any_of(run.files.begin(), run.files.end(), [&](const written_file& file) {
-    return is_here(std::filesystem::absolute(run.folder / file.name, failure));
+  return std::any_of(run.files.begin(), run.files.end(), [&](const written_file& listed) {
+    return std::any_of(files.begin(), files.end(), [&](const std::filesystem::path& file) {
+      return std::filesystem::equivalent(run.folder / listed.name, file, failure);
+    });
   });
 }
 
-/// Of a folder, each mesh in it.
-int check_mesh(const std::filesystem::path& path) {
+/// Of a folder, each mesh in it. `read` receives the files that were.
+int check_mesh(const std::filesystem::path& path, std::vector<std::filesystem::path>& read) {
   std::error_code failure;
-  std::vector<std::filesystem::path> files;
   if (!std::filesystem::is_directory(path, failure)) {
-    const int result = check_file(path, files);
-    return result == exit_ok ? check_record(path, files) : result;
+    const int result = check_file(path, read);
+    read.push_back(path);
+    return result == exit_ok ? check_record(path, read) : result;
   }
   const auto all = all_meshes_in(path);
   if (all.empty())
     io::find_mesh_file(path); // says what is there instead
   int result = exit_ok;
-  std::vector<std::filesystem::path> done;
   for (const auto& file : all) {
-    if (std::find(done.begin(), done.end(), file) != done.end())
+    if (std::find(read.begin(), read.end(), file) != read.end())
       continue;
-    files.clear();
+    std::vector<std::filesystem::path> files;
     if (const int of_file = check_file(file, files); of_file != exit_ok)
       result = of_file;
-    done.insert(done.end(), files.begin(), files.end());
+    read.push_back(file);
+    read.insert(read.end(), files.begin(), files.end());
   }
   if (const auto of_run = files_of_run_in(path); !of_run.empty())
     tell_of_other_runs(path, all, of_run);
@@ -385,14 +381,15 @@ int check_mesh(const std::filesystem::path& path) {
 int run_check(const check_options& options) {
   if (options.mesh.empty() && options.report.empty())
     throw command_line_error("check: give a mesh file, or --report with the report of a run, or both");
+  std::vector<std::filesystem::path> read;
   if (options.report.empty())
-    return check_mesh(options.mesh);
+    return check_mesh(options.mesh, read);
   const report_files run = files_of_report(options.report);
   const int files = check_files(run, options.report);
   if (options.mesh.empty())
     return files;
-  const int mesh = check_mesh(options.mesh);
-  if (mesh == exit_ok && !is_of_run(options.mesh, run)) {
+  const int mesh = check_mesh(options.mesh, read);
+  if (mesh == exit_ok && !is_of_run(read, run)) {
     complain(options.report + ": of another run: it lists none of the files of " + options.mesh);
     return exit_failure;
   }

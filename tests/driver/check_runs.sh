@@ -479,6 +479,9 @@ for mesh in out out/mesh.pvtu; do
   expect_success check "$sandbox/kept/$mesh" --report "$sandbox/kept/report.json"
   expect_error "of another run: it lists none of the files of" check "$sandbox/kept/copy${mesh#out}" --report "$sandbox/kept/report.json"
 done
+mv "$sandbox/kept/copy" "$sandbox/kept/above" # beside the report, and above what it lists
+mv "$sandbox/kept/out" "$sandbox/kept/report.json" "$sandbox/kept/above"
+expect_error "of another run" check "$sandbox/kept/above" --report "$sandbox/kept/above/report.json"
 
 # Triangles by every mesher that is offered.
 of_triangles=$("$driver" mesh --help | tr -s ' \n' ' ' | sed -n 's/.*; of triangles: \([a-z, ]*\) -.*/\1/p' | tr -d ,)

@@ -118,6 +118,22 @@ TEST_CASE("what was found for a face is found again, for the same lines and thre
   CHECK(faces.made_segments.made() > made);
 }
 
+TEST_CASE("the outline of an interface face is the boundary of its patch") {
+  two_faces faces({{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}});
+  memo<fine_line> made;
+  const auto lines = number_lines(faces.skeleton,
+                                  remesh_lines(no_lines_on_it, faces.skeleton.lines, faces.points,
+                                               refined_sizing(unit_size), parallel::serial{}, made),
+                                  faces.points, {});
+  for (const skeleton_face& face : faces.skeleton.faces) {
+    const auto outline = interface_outline(face, lines_of(face, lines.keys), lines);
+    const auto boundary = interface_patch(face, faces.points, lines).patch.boundary;
+    CHECK(outline.labels.size() > 5);
+    CHECK(outline.labels == boundary.labels);
+    CHECK(outline.segments == boundary.segments);
+  }
+}
+
 TEST_CASE("a request to stop ends the matching") {
   two_faces faces({{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}});
   faces.on_progress.stop_requested = [] { return true; };
@@ -179,7 +195,8 @@ TEST_CASE("faces that look at each other's lines are mended in their order, the 
     CHECK(turns.size() == wanted.size());
     CHECK((passes.size() > 1) == (of_hundred == 100));
     CHECK(passes.size() < 60); // not as many as faces that wait for each other in a row
-    CHECK(groups > wanted.size() / 32);
+    if (of_hundred == 2)
+      CHECK(groups > wanted.size() / 2); // most are apart
 
     bool in_order = true;
     for (const local_id f : wanted) {

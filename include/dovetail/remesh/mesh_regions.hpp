@@ -119,8 +119,9 @@ struct region_set {
   std::function<std::vector<vec3>(std::size_t)> surface_points = {};
   /// The boundary of a region on no face, which may lack its parameters; where there is none, `build` tells.
   std::function<patch_boundary(std::size_t)> outline_of = {};
-  /// For regions on no face, whose labels are all different: names of what the points of their boundary are a
-  /// function of, beside those of their surface. Outlines may lack points then. Empty where none are known.
+  /// For regions on no face, whose labels are all different: names of what the points of their boundary,
+  /// their order and the segments are a function of, beside the surface's points. Outlines may lack points
+  /// then. Empty where none are known.
   std::function<std::vector<content_key>(std::size_t)> lines_of = {};
   /// Edges that a region must not have since another one has them; `mesh_regions` adds to them.
   std::map<std::size_t, std::vector<simplex<1>>> forbidden_edges = {};

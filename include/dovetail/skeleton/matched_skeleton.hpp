@@ -18,6 +18,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -100,7 +101,8 @@ using faces_in_turn = std::vector<local_id>;
 
 /// Faces that have to be mended in their order, in passes one after the other, so that what comes out is what
 /// it were if they were mended one by one: all that is in a pass at once is apart from the rest of it. A face
-/// changes its own lines, and looks at those of the faces beside it.
+/// changes its own lines, and looks at those of the faces beside it. Costs faces times passes, of which there
+/// are few unless many wait for each other in a row.
 class matching_passes {
 public:
   matching_passes(const matched_skeleton& skeleton, std::vector<local_id> faces) : skeleton_(skeleton) {
@@ -114,8 +116,8 @@ private:
   /// More faces that wait for each other in one place are left to later passes.
   static constexpr double most_in_turn = 32;
 
-  /// Makes a pass of the first of these faces, in their order; returns those that are left. Of two that look
-  /// at what the other one changes, both are in turn, or the later one is left, or both are.
+  /// Makes a pass of those of these faces that need not wait for another pass; returns those that are left.
+  /// Of two that look at what the other one changes, both are in turn, or the later one is left, or both are.
   std::vector<local_id> left_by_pass(const std::vector<local_id>& faces) {
     std::unordered_map<local_id, local_id> changed_by; // per line: a face in the pass, or no_id for one left
     disjoint_sets together(faces.size());
@@ -123,10 +125,9 @@ private:
     for (std::size_t i = 0; i < faces.size(); ++i) {
       const auto place = static_cast<local_id>(i);
       const std::set<local_id> before = groups_before(faces[i], changed_by, together);
-      double in_turn = 1;
-      for (const local_id group : before)
-        in_turn += group == no_id ? most_in_turn : together.weight(group);
-      const bool is_left = in_turn > most_in_turn;
+      const auto weight = [&](double sum, local_id group) { return sum + together.weight(group); };
+      const bool is_left =
+          before.contains(no_id) || std::accumulate(before.begin(), before.end(), 1.0, weight) > most_in_turn;
       (is_left ? left : taken).push_back(place);
       for (const local_id line : skeleton_.sides(faces[i]))
         changed_by[line] = is_left ? no_id : place;

@@ -40,7 +40,11 @@ public:
         size_(size), threshold_(threshold), mesher_(mesher), run_(run), made_(made),
         on_progress_(on_progress), lines_of_face_(lines_of_faces(coarse)),
         faces_of_line_(faces_of_lines(lines_of_face_, coarse.lines.size())),
-        fine_of_line_(std::move(lines.names)) {}
+        fine_of_line_(std::move(lines.names)) {
+    if (fine_of_line_.empty())
+      for (const skeleton_line& line : coarse.lines)
+        fine_of_line_.push_back(kept_line(line, coarse_points, size));
+  }
 
   /// Faces around what changed are tried in the next sweep, as they may be worse or easier to mend now.
   void run(std::vector<local_id> wanted) {
