@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 
 using namespace dovetail;
@@ -281,9 +282,9 @@ TEST_CASE("a mesh whose surface is known by points is found by the outline of it
   CHECK(made_with(false, 0.5) == 0);
 }
 
-TEST_CASE("a mesh whose boundary is known by the names of its lines is found by these and its surface") {
+TEST_CASE("a mesh whose boundary has a name is found by that and its surface") {
   region_memo store;
-  const auto made_with = [&](std::uint64_t line_of_second, double at, bool refined) {
+  const auto made_with = [&](int name_of_second, double at, bool refined) {
     listed_regions both = cushion();
     both.surface_points = {{{1, 0, 0}}, {{at, 0, 0}}};
     region_set set = both.set();
@@ -293,8 +294,8 @@ TEST_CASE("a mesh whose boundary is known by the names of its lines is found by 
       outline.points.clear();
       return outline;
     };
-    set.lines_of = [=](std::size_t r) {
-      return std::vector<content_key>{{7}, {r == 0 ? 8 : line_of_second}};
+    set.boundary_name = [=](std::size_t r) {
+      return std::optional(kept<patch_boundary>::of(r == 0 ? 8 : name_of_second));
     };
     refined_sizing size(coarse);
     if (refined)

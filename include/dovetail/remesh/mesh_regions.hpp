@@ -8,7 +8,6 @@
 #pragma once
 
 #include "dovetail/core/compressed_rows.hpp"
-#include "dovetail/core/content_key.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/policy.hpp"
 #include "dovetail/core/progress.hpp"
@@ -26,6 +25,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -119,10 +119,10 @@ struct region_set {
   std::function<std::vector<vec3>(std::size_t)> surface_points = {};
   /// The boundary of a region on no face, which may lack its parameters; where there is none, `build` tells.
   std::function<patch_boundary(std::size_t)> outline_of = {};
-  /// For regions on no face, whose labels are all different: names of what the points of their boundary,
+  /// For regions on no face, whose labels are all different: a name of what the points of their boundary,
   /// their order and the segments are a function of, beside the surface's points. Outlines may lack points
-  /// then. Empty where none are known.
-  std::function<std::vector<content_key>(std::size_t)> lines_of = {};
+  /// then.
+  std::function<std::optional<kept<patch_boundary>>(std::size_t)> boundary_name = {};
   /// Edges that a region must not have since another one has them; `mesh_regions` adds to them.
   std::map<std::size_t, std::vector<simplex<1>>> forbidden_edges = {};
 
@@ -130,15 +130,15 @@ struct region_set {
   std::vector<vec3> points_of_surface(std::size_t r) const {
     return surface_points ? surface_points(r) : std::vector<vec3>{};
   }
-  /// The names of what its boundary is a function of; none where these are not known.
-  std::vector<content_key> names_of_lines(std::size_t r) const {
-    return lines_of ? lines_of(r) : std::vector<content_key>{};
+  /// The name of its boundary; none where that is not known.
+  std::optional<kept<patch_boundary>> name_of_boundary(std::size_t r) const {
+    return boundary_name ? boundary_name(r) : std::nullopt;
   }
   /// A region with its boundary and the edges it must not have.
   surface_region region(const any_geometry& own, std::size_t r) const {
     return with_forbidden_edges(r, build(own, r));
   }
-  /// The same, perhaps without its parameters, and its points where `lines_of` tells of these.
+  /// The same, perhaps without its parameters, and its points where the boundary has a name.
   surface_region outline(const any_geometry& own, std::size_t r) const {
     if (!outline_of || points_of_surface(r).empty())
       return region(own, r);

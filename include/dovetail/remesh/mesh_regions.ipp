@@ -188,8 +188,8 @@ private:
                                   size_.balls_near(place(model_, r, b)));
     };
     const std::vector<vec3> surface = set_.points_of_surface(r);
-    if (const auto lines = set_.names_of_lines(r); !lines.empty())
-      return by(surface, lines,
+    if (const auto name = set_.name_of_boundary(r))
+      return by(surface, *name,
                 b.forbidden_edges.empty() ? std::vector<simplex<1>>{} : places_of(b).forbidden);
     const places_of_labels places = places_of(b);
     return by(surface, surface.empty() ? b.uv : std::vector<vec2>{}, b.points, places.same_label, b.segments,

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -55,12 +56,11 @@ public:
     set.outline_of = [this](std::size_t p) {
       return interface_outline(face_of(p), lines_of_face_[p - skeleton_.regions.size()], lines_);
     };
-    set.lines_of = [this](std::size_t p) {
-      std::vector<content_key> names;
-      if (!is_region(p))
-        for (const local_id l : lines_of_face_[p - skeleton_.regions.size()])
-          names.push_back(lines_.names[l].key());
-      return names;
+    set.boundary_name = [this](std::size_t p) -> std::optional<kept<patch_boundary>> {
+      if (is_region(p))
+        return std::nullopt;
+      const auto& [a, b, c] = lines_of_face_[p - skeleton_.regions.size()];
+      return kept<patch_boundary>::of(lines_.names[a], lines_.names[b], lines_.names[c]);
     };
     return set;
   }
