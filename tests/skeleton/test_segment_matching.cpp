@@ -26,6 +26,7 @@ struct two_faces {
   std::vector<vec3> points;
   coarse_skeleton skeleton;
   std::size_t matched = 0; ///< lines, by the last `remesh`
+  bool named = true;       ///< whether lines come with their names
   matched_faces made_segments = {};
   progress on_progress = {}; ///< of the matching
 
@@ -51,10 +52,10 @@ struct two_faces {
       return mesh_patches(of, any_surface_mesher(), parallel::serial{}, made_patches);
     };
     auto patches = fill();
-    matched =
-        match_segments(no_lines_on_it, points, skeleton, {lines.lines, lines.names},
-                       faces_with_small_angles(patches, skeleton, made_patches, least_angle_deg), size,
-                       least_angle_deg, any_surface_mesher(), parallel::serial{}, made_segments, on_progress);
+    matched = match_segments(
+        no_lines_on_it, points, skeleton, {lines.lines, named ? lines.names : std::vector<kept<fine_line>>{}},
+        faces_with_small_angles(patches, skeleton, made_patches, least_angle_deg), size, least_angle_deg,
+        any_surface_mesher(), parallel::serial{}, made_segments, on_progress);
     return join_patches(of, matched == 0 ? std::move(patches) : fill(), parallel::serial{}, made_patches);
   }
 };
@@ -132,6 +133,17 @@ TEST_CASE("the outline of an interface face is the boundary of its patch") {
     CHECK(outline.labels == boundary.labels);
     CHECK(outline.segments == boundary.segments);
   }
+}
+
+TEST_CASE("lines without names are matched as those that have them") {
+  const std::vector<vec3> corners{{0, 0, 0}, {3.1, 0, 0}, {2.74, 1.85, 0}, {1.5, -2.6, 0}};
+  two_faces with(corners), without(corners);
+  without.named = false;
+  const auto first = with.remesh(30), second = without.remesh(30);
+  CHECK(with.matched > 0);
+  CHECK(with.matched == without.matched);
+  CHECK(first.fine.sides == second.fine.sides);
+  CHECK(without.made_segments.made() == with.made_segments.made());
 }
 
 TEST_CASE("a request to stop ends the matching") {

@@ -176,9 +176,10 @@ private:
 /// `faces`, growing, are those with smaller angles on the present `lines` (`faces_with_small_angles`). They
 /// are tried with `mesher`, in their order, and side by side through `run` where they are apart: the
 /// result is a function of the skeleton, the model, the sizes and the mesher. `made` carries what was found
-/// for faces from one call to the next. Returns the number of lines with such segments. Costs up to some
-/// hundred meshes of each face with a smaller angle, fewer where its corners tell that they cannot help.
-/// Throws `mesher_error` when a trial cannot be evaluated.
+/// for faces from one call to the next. Names of lines, where there are any, are of the present ones. Returns
+/// the number of lines with such segments. Costs up to some hundred meshes of each face with a smaller angle,
+/// fewer where its corners tell that they cannot help. Throws `mesher_error` when a trial cannot be
+/// evaluated.
 template <surface_mesher Mesher>
 std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
                            coarse_skeleton& skeleton, remeshed_lines lines, std::vector<local_id> faces,
