@@ -439,6 +439,19 @@ TEST_CASE("sizes fit details that stay: a hole, and a vertex near to the edge of
   CHECK(fitted({4, 5, 0}) == doctest::Approx(0.1 + 0.4 * 2).epsilon(0.02));
 }
 
+TEST_CASE("triangles get small sizes along a strip of which one end is left out") {
+  // It is 0.35 wide at the bottom, where it is a detail and ends in a point instead, and 0.64 at the top.
+  const discrete_model cube = chamfered_cube(0.25, 0.45).model();
+  const virtual_model model(cube, any_sizing([](vec3 p) { return p.z < 3 ? 4.0 : 1.2; }));
+  REQUIRE(kinds_of(model) == std::vector{kind::narrow_end});
+  const any_sizing given = uniform_size(2.5);
+  const auto size_at_strip = [&](int dimension) {
+    return finer_at_details(any_geometry(model), given, {.dimension = dimension})({9.85, 9.85, 5});
+  };
+  CHECK(size_at_strip(2) == doctest::Approx(2 * 0.35 * std::numbers::sqrt2).epsilon(0.1));
+  CHECK(size_at_strip(3) == 2.5);
+}
+
 TEST_CASE("a chamfer around a cylinder, and a step all around it, become circles") {
   const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(5, 8).Shape();
   const auto rounded = without_details(model_of(chamfered(cylinder, 0.1, [](vec3 p) { return p.z > 7.9; })));

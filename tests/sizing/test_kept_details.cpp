@@ -109,7 +109,9 @@ TEST_CASE("sizes are small all along a face that is far narrower than they are")
 
   plane_drawing wedge; // narrows down to a corner
   wedge.polygons = {{{{0, 0}, {1, 0}, {1, 0.05}}, "wedge"}};
-  CHECK(finer_at_details(any_geometry(plane_domain(wedge)), given)({0.3, 0, 0}) == 0.1);
+  for (const int dimension : {2, 3})
+    CHECK(finer_at_details(any_geometry(plane_domain(wedge)), given, {.dimension = dimension})({0.3, 0, 0}) ==
+          0.1);
 
   plane_drawing bridge; // between the boundary and a round hole, no vertex of which is near to it
   bridge.polygons = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, "square"}};

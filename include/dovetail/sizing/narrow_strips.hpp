@@ -17,8 +17,10 @@
 
 namespace dovetail::sizing {
 
-/// Finds, along every curve of a face, how far it is across the face to a curve without a common vertex.
-/// Curves that meet are left out: the width between them vanishes, and no size fits it.
+/// Finds, along every curve of a face, how far it is across the face to another one. Curves that narrow down
+/// to a corner are left out: the width between them vanishes, and no size fits it.
+/// For triangles each face counts that is meshed. Tetrahedra at flat triangles are seldom flat: for them
+/// faces within the tolerances of their curves are left as they are, and faces of which one end is closed.
 template <geometry_model G>
 class narrow_strips {
 public:
@@ -52,11 +54,40 @@ private:
 
   const geometry_topology& topology() const { return model_.topology(); }
 
-  bool meet(local_id a, local_id b) const {
+  bool has_common_vertex(local_id a, local_id b) const {
     const auto& first = topology().curves[a].vertices;
-    const auto& second = topology().curves[b].vertices;
-    return a == b || first[0] == second[0] || first[0] == second[1] || first[1] == second[0] ||
-           first[1] == second[1];
+    return std::any_of(first.begin(), first.end(), [&](local_id v) { return ends_at(b, v); });
+  }
+  bool ends_at(local_id curve, local_id v) const {
+    const auto& ends = topology().curves[curve].vertices;
+    return ends[0] == v || ends[1] == v;
+  }
+
+  /// Whether the width between two curves, at one chord, is not that of a strip.
+  bool is_at_corner(local_id face, const passed_chord& from, const passed_chord& to, vec3 p,
+                    double width) const {
+    if (from.curve == to.curve)
+      return true;
+    if (options_.dimension == 3)
+      return has_common_vertex(from.curve, to.curve);
+    return narrow_to_corner(face, from, to, p, width);
+  }
+
+  /// Whether the curves have a common vertex so near that the angle between them explains the width.
+  bool narrow_to_corner(local_id face, const passed_chord& from, const passed_chord& to, vec3 p,
+                        double width) const {
+    const double angle = norm(chords_.into_face(face, from) + chords_.into_face(face, to)); // radians, about
+    const auto& ends = topology().curves[from.curve].vertices;
+    return std::any_of(ends.begin(), ends.end(), [&](local_id v) {
+      return ends_at(to.curve, v) && angle * distance(topology().vertices[v].point, p) > 0.5 * width;
+    });
+  }
+
+  /// Up to which width faces between two curves stay as they are.
+  double unresolved_width(const passed_chord& a, const passed_chord& b) const {
+    if (options_.dimension == 2)
+      return 0;
+    return topology().curves[a.curve].tolerance + topology().curves[b.curve].tolerance;
   }
 
   /// The width of the face at the middle `p` of a chord, where it is a small share of the size there.
@@ -69,8 +100,8 @@ private:
         [&](local_id k) {
           const passed_chord& other = chords.passed[k];
           const vec3 foot = foot_on(*other.line, p);
-          if (const double away = distance(foot, p);
-              away < width && !meet(along.curve, other.curve) && is_across(face, along, other, p, foot)) {
+          if (const double away = distance(foot, p); away < width && is_across(face, along, other, p, foot) &&
+                                                     !is_at_corner(face, along, other, p, away)) {
             width = away;
             nearest = &other;
           }
@@ -78,9 +109,7 @@ private:
     if (nearest == nullptr)
       return std::nullopt;
     width = distance(chords_.foot_on(*nearest, p), p);
-    const double touching =
-        std::max(options_.touching_share * size,
-                 topology().curves[along.curve].tolerance + topology().curves[nearest->curve].tolerance);
+    const double touching = std::max(options_.touching_share * size, unresolved_width(along, *nearest));
     if (!(width > touching && width < narrow_share() * size))
       return std::nullopt;
     return width;
