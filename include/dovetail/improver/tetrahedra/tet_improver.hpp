@@ -53,7 +53,7 @@ public:
                const any_sizing& size)
       : parameters_(parameters), mesh_(mesh), surface_(surface), size_(size) {}
 
-  /// Raises the poor elements to the target, then the worst ones once more.
+  /// Raises the poor elements to the target, then twice the worst ones once more.
   void raise(report& result) const {
     auto limits = limits_for(Measure::from_angle(parameters_.target_angle));
     poor_tetrahedra<Measure> poor(mesh_, surface_);
@@ -67,6 +67,7 @@ public:
     poor.hard_effort.open.share = 0.01;
     poor.hard_effort.narrow.share = 0.0005;
     plan.run(limits);
+    plan.run(limits_for_bad(limits));
     if (parameters_.global_passes > 0)
       smooth_globally(kept, result);
     plan.log().write_to(result);
@@ -96,6 +97,15 @@ private:
     limits.operations.target = static_cast<float>(target);
     limits.operations.search_iterations = parameters_.search_iterations;
     limits.operations.band = {&size_, parameters_.shortest_edge, parameters_.longest_edge};
+    return limits;
+  }
+  /// For elements that nothing has helped, mostly beside details of the boundary much smaller than the size:
+  /// what is made there may have edges as short as it takes.
+  static schedule_limits<3> limits_for_bad(schedule_limits<3> limits) {
+    constexpr double bad_angle = 15, part_of_shortest = 0.25;
+    auto& kept = limits.operations;
+    kept.target = std::min(kept.target, static_cast<float>(Measure::from_angle(bad_angle)));
+    kept.band.shortest *= part_of_shortest;
     return limits;
   }
   void smooth_globally(const operation_limits<3>& limits, report& result) const {
