@@ -49,8 +49,10 @@ private:
   std::optional<automatic_options> automatic_; ///< its largest size is `size_`
 };
 
-/// No automatic size is smaller than the model's diagonal over this, in thin walls and at details.
+/// No automatic size is smaller than the model's diagonal over this, in thin walls.
 inline constexpr double most_sizes_across = 5000;
+/// The same at details, which need far fewer elements.
+inline constexpr double most_sizes_across_at_details = 50'000;
 
 struct model_source {
   std::string name; ///< for the summary

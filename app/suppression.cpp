@@ -68,7 +68,7 @@ void suppression::fit_sizes(model_source& source) const {
     return;
   constexpr double most_by_default = 2e5, most_of_wanted = 0.2;
   kept_detail_options allowed;
-  allowed.least_size = source.geometry.bounds().diagonal() / most_sizes_across;
+  allowed.least_size = source.geometry.bounds().diagonal() / most_sizes_across_at_details;
   allowed.growth = options_.growth.value_or(allowed.growth);
   allowed.most_elements = options_.elements ? most_of_wanted * *options_.elements : most_by_default;
   allowed.dimension = dimension_;

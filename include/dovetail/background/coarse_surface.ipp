@@ -215,9 +215,9 @@ private:
           faces);
     }
     if (!mesh.folded.empty())
-      throw error_of_faces<mesher_error>(start + std::to_string(mesh.folded.size()) +
-                                             " triangles stay folded over; the face is nearly singular "
-                                             "there, repair it or give a smaller size",
+      throw error_of_faces<mesher_error>(start + folded_triangles(mesh) +
+                                             "; the face is nearly singular there, repair it or give a "
+                                             "smaller size",
                                          faces);
     throw error_of_faces<mesher_error>(
         start + "it cannot be kept apart from its neighbours; give a smaller size", faces);

@@ -100,10 +100,15 @@ patch_mesh mesh_region(const Mesher& mesher, const any_surface& surface, const s
   return best;
 }
 
+/// In words, of a mesh that is folded over still.
+inline std::string folded_triangles(const patch_mesh& made) {
+  const std::size_t count = made.folded.size();
+  return count == 1 ? "a triangle stays folded over" : std::to_string(count) + " triangles stay folded over";
+}
+
 /// What is wrong with a region that is folded over still.
 inline std::string folds_of(const patch_mesh& made) {
-  return std::to_string(made.folded.size()) +
-         " triangles stay folded over; repair the face or give a smaller size there";
+  return folded_triangles(made) + "; repair the face or give a smaller size there";
 }
 
 /// Regions that share boundary points, by the same labels. Their boundaries together are as large as their
