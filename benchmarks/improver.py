@@ -1,13 +1,9 @@
-#!/ usr / bin / python3
-""
-    "Measures the improvers on the same meshes: improver.py BUILD [options]
+#!/usr/bin/python3
+"""Measures the improvers on the same meshes: improver.py BUILD [options]
 
-    Makes the
-    meshes(kept in BUILD / benchmarks / improver_meshes),
-    runs the native improver 's presets and Gmsh' s optimiser on each, and prints tables as markdown;
-writes quality against time as a picture when-- picture names a file.Surfaces are made by the command line of
-    Gmsh,
-    that of the built - in aircraft by dovetail itself; they are filled by TetGen's `pYqm`.
+Makes the meshes (kept in BUILD/benchmarks/improver_meshes), runs the native improver's presets and Gmsh's optimiser on
+each, and prints tables as markdown; writes quality against time as a picture when --picture names a file. Surfaces are
+made by the command line of Gmsh, that of the built-in aircraft by dovetail itself; they are filled by TetGen's `pYqm`.
 linkrods and the airliner are left out when DOVETAIL_SHARED is not set. Seconds are processor time. Gmsh's count all
 that a caller waits for, the hand-over of the mesh by its interface included.
 """
@@ -195,5 +191,5 @@ def main():
 if __name__ == "__main__":
     try:
         main()
-    except subprocess
-.SubprocessError as problem : sys.exit(f "improver.py: {problem}")
+    except subprocess.SubprocessError as problem:
+        sys.exit(f"improver.py: {problem}")

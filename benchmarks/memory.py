@@ -6,7 +6,7 @@ many ranks as --ranks says, each with a worker. A process that computes, and wit
 peak, and the most that it and its worker are seen to have together, where what they share counts once; the larger is a
 rank's memory. It prints a markdown table of these beside the bound that the first is held to,
 
-    150 MB + 150 bytes per background element + 60 bytes per side of the skeleton,
+    60 MB + 550 bytes per background element + 60 bytes per side of the skeleton,
 
 and then the constants, none negative, of
 
@@ -35,7 +35,7 @@ MB = 1e6
 
 
 def bound_of_parent(background_elements, sides):
-    return 150 * MB + 150 * background_elements + 60 * sides
+    return 60 * MB + 550 * background_elements + 60 * sides
 
 
 def children_of(processes):
