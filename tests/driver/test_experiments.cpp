@@ -416,20 +416,20 @@ TEST_CASE("a row of means is over the seeds that a run was made with, and those 
     run.measured["at_interfaces"]["touching"]["min_dihedral_deg"] = degrees;
   };
   run_result& run = result.runs[in_pieces];
-  REQUIRE(run.beside.size() == 2);
+  REQUIRE(run.beside.size() == 4);
   set(run, 1);
-  set(run.beside[0], 2);
-  set(run.beside[1], 6);
+  for (const auto& [seed, degrees] : {std::pair(0, 2.0), {1, 6.0}, {2, 3.0}, {3, 8.0}})
+    set(run.beside[static_cast<std::size_t>(seed)], degrees);
   const std::string row = "Smallest angle there";
-  CHECK(value_in(result, row, in_pieces, &row_values::measured) == doctest::Approx(3));
-  CHECK(value_in(result, row, in_pieces, &row_values::margin) == doctest::Approx(6.573).epsilon(1e-3));
+  CHECK(value_in(result, row, in_pieces, &row_values::measured) == doctest::Approx(4));
+  CHECK(value_in(result, row, in_pieces, &row_values::margin) == doctest::Approx(3.620).epsilon(1e-3));
   CHECK(std::isnan(value_in(result, row, 0, &row_values::margin))); // of one run
-  CHECK(markdown_text(result).find("| 3.0 ± 6.6 |") != std::string::npos);
-  CHECK(csv_text(result).find(",\"aircraft, raw, no repair, no rule\",margin,6.57") != std::string::npos);
+  CHECK(markdown_text(result).find("| 4.0 ± 3.6 |") != std::string::npos);
+  CHECK(csv_text(result).find(",\"aircraft, raw, no repair, no rule\",margin,3.6") != std::string::npos);
   CHECK(json::parse(json_text(result)).at("rows").at(3).at("margin").at(in_pieces).is_number());
   run.beside.back().measured = json();
-  CHECK(value_in(result, row, in_pieces, &row_values::measured) == doctest::Approx(1.5));
-  CHECK(value_in(result, row, in_pieces, &row_values::margin) == doctest::Approx(6.353).epsilon(1e-3));
+  CHECK(value_in(result, row, in_pieces, &row_values::measured) == doctest::Approx(3));
+  CHECK(value_in(result, row, in_pieces, &row_values::margin) == doctest::Approx(3.437).epsilon(1e-3));
 }
 
 std::vector<std::string> lines_of_table(const std::string& markdown) {

@@ -88,6 +88,7 @@ TEST_CASE("no element is thin for a gap that begins at a point") {
   const any_geometry given = cad_model(hollow_and_block());
   const double below = 54.34; // the hollow, in a cut through it
   const double volume = 5 * below + 10 * 5 * 5;
-  CHECK(least_angle_of(virtual_model(given, uniform_size(size_at_gaps)), volume) > 12);
-  CHECK(least_angle_of(given, volume) < 12);
+  const double drawn = least_angle_of(given, volume);
+  CHECK(drawn < 16);
+  CHECK(least_angle_of(virtual_model(given, uniform_size(size_at_gaps)), volume) > drawn + 4);
 }

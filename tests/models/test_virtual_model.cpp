@@ -440,16 +440,23 @@ TEST_CASE("sizes fit details that stay: a hole, and a vertex near to the edge of
 }
 
 TEST_CASE("triangles get small sizes along a strip of which one end is left out") {
-  // It is 0.35 wide at the bottom, where it is a detail and ends in a point instead, and 0.64 at the top.
-  const discrete_model cube = chamfered_cube(0.25, 0.45).model();
-  const virtual_model model(cube, any_sizing([](vec3 p) { return p.z < 3 ? 4.0 : 1.2; }));
-  REQUIRE(kinds_of(model) == std::vector{kind::narrow_end});
+  // At the bottom it is a detail, and ends in a point instead.
+  const any_sizing of_details([](vec3 p) { return p.z < 3 ? 4.0 : 1.2; });
   const any_sizing given = uniform_size(2.5);
-  const auto size_at_strip = [&](int dimension) {
+  const auto size_at_strip = [&](const any_geometry& drawn, int dimension) {
+    const virtual_model model(drawn, of_details);
+    REQUIRE(kinds_of(model) == std::vector{kind::narrow_end});
     return finer_at_details(any_geometry(model), given, {.dimension = dimension})({9.85, 9.85, 5});
   };
-  CHECK(size_at_strip(2) == doctest::Approx(2 * 0.35 * std::numbers::sqrt2).epsilon(0.1));
-  CHECK(size_at_strip(3) == 2.5);
+  const any_geometry chamfered(chamfered_cube(0.25, 0.45).model()); // 0.49 wide there
+  CHECK(size_at_strip(chamfered, 2) == doctest::Approx(2 * 0.49).epsilon(0.1));
+  CHECK(size_at_strip(chamfered, 3) == 2.5);
+
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
+  BRepFilletAPI_MakeFillet rounded(box); // turns by a right angle
+  for (const TopoDS_Edge& edge : edges_where(box, [](vec3 p) { return p.x > 9 && p.y > 9; }))
+    rounded.Add(0.35, edge);
+  CHECK(size_at_strip(any_geometry(model_of(rounded.Shape())), 2) == doctest::Approx(2 * 0.49).epsilon(0.1));
 }
 
 TEST_CASE("a chamfer around a cylinder, and a step all around it, become circles") {

@@ -26,7 +26,7 @@ coarse_skeleton skeleton() {
 patch_failure folded_triangle() {
   patch_failure failure;
   failure.folded = {{vec3{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}};
-  failure.reason = "a region of face 9: 1 triangles stay folded over";
+  failure.reason = "a region of face 9: a triangle stays folded over";
   return failure;
 }
 

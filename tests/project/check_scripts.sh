@@ -2,6 +2,7 @@
 # Every script can be read by its interpreter, and those that are called by their name may be executed.
 set -euo pipefail
 status=0
+read=0
 fail() {
   echo "$*" >&2
   status=1
@@ -14,9 +15,11 @@ while IFS= read -r file; do
   *.sh:* | *:'#!'*bash) bash -n "$file" || fail "$file: not a shell script" ;;
   *) continue ;;
   esac
-  if [[ $first == '#!'* && $file == @(benchmarks|scripts)/* ]]; then # without, it is imported
+  if [[ $first == '#!'* && $file == @(benchmarks|scripts)/* ]]; then # a file without such a line is imported
     [[ $first == '#!/'[a-z]* ]] || fail "$file: its first line names no interpreter"
     [[ -x $file ]] || fail "$file: may not be executed"
   fi
-done < <(find benchmarks scripts tests examples cmake packaging .ci -type f -not -path '*/__pycache__/*' | sort)
+  read=$((read + 1))
+done < <(find . \( -name .git -o -name __pycache__ -o -path './build*' \) -prune -o -type f -print | sed 's|^\./||' | sort)
+[[ $read -gt 50 ]] || fail "only $read scripts were found"
 exit "$status"

@@ -19,8 +19,11 @@ struct native {
 
   /// Elements with a dihedral angle under this, in degrees, are worked on.
   double target_angle = 29;
-  /// Elements that are still under this get a last try with larger cavities.
+  /// Elements that are still under this are tried again with larger cavities.
   double stubborn_angle = 25;
+  /// Tetrahedra that are still under this are tried once more, with edges down to a quarter of
+  /// `shortest_edge`: mostly those beside details much smaller than the size. 0: none.
+  double bad_angle = 15;
   /// Sweeps over the poor elements at most.
   int passes = 12;
   /// Sweeps over what is then still poor, in which vertices are inserted and removed as well.
@@ -32,7 +35,7 @@ struct native {
   double least_gain = 0.01;
   /// Edges that an operation makes stay between these two, times the size there, or between the shortest and
   /// longest edge that were there before. Without a sizing field the size is the mean length of the edges
-  /// before. To mend tetrahedra under 15 degrees that nothing else has helped they may be a quarter as short.
+  /// before.
   double shortest_edge = 0.4, longest_edge = 2;
   /// Linearisations per move of a vertex.
   int search_iterations = 6;

@@ -10,6 +10,7 @@ namespace dovetail {
 DOVETAIL_INLINE improvement::native default_background_improver() {
   return improvement::native{.target_angle = 28,
                              .stubborn_angle = 15,
+                             .bad_angle = 0,
                              .passes = 1,
                              .hard_passes = 1,
                              .search_iterations = 1,

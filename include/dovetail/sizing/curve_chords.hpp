@@ -83,11 +83,14 @@ public:
     return model_.topology().faces[face].coedges[along.coedge].reversed ? -inward : inward;
   }
 
-  /// The nearest place to `p` of the curve that a chord is of, near that chord.
-  vec3 foot_on(const passed_chord& near, vec3 p) const {
+  /// The parameter of the nearest place to `p` of the curve that a chord is of, near that chord.
+  double foot_of(const passed_chord& near, vec3 p) const {
     const auto& range = model_.topology().curves[near.curve].t;
-    const double t = model_.project_to_curve(near.curve, p, near.line->middle);
-    return model_.curve_point(near.curve, std::clamp(t, range[0], range[1]));
+    return std::clamp(model_.project_to_curve(near.curve, p, near.line->middle), range[0], range[1]);
+  }
+  /// That place.
+  vec3 foot_on(const passed_chord& near, vec3 p) const {
+    return model_.curve_point(near.curve, foot_of(near, p));
   }
 
 private:

@@ -19,8 +19,8 @@ namespace dovetail::sizing {
 
 /// Finds, along every curve of a face, how far it is across the face to another one. Curves that narrow down
 /// to a corner are left out: the width between them vanishes, and no size fits it.
-/// For triangles each face counts that is meshed. Tetrahedra at flat triangles are seldom flat: for them
-/// faces within the tolerances of their curves are left as they are, and faces of which one end is closed.
+/// Flat triangles seldom make flat tetrahedra. So for tetrahedra strips are left as they are between two
+/// curves with a common vertex, and where they are no wider than the tolerances of the curves.
 template <geometry_model G>
 class narrow_strips {
 public:
@@ -54,32 +54,31 @@ private:
 
   const geometry_topology& topology() const { return model_.topology(); }
 
-  bool has_common_vertex(local_id a, local_id b) const {
-    const auto& first = topology().curves[a].vertices;
-    return std::any_of(first.begin(), first.end(), [&](local_id v) { return ends_at(b, v); });
-  }
   bool ends_at(local_id curve, local_id v) const {
     const auto& ends = topology().curves[curve].vertices;
     return ends[0] == v || ends[1] == v;
   }
-
-  /// Whether the width between two curves, at one chord, is not that of a strip.
-  bool is_at_corner(local_id face, const passed_chord& from, const passed_chord& to, vec3 p,
-                    double width) const {
-    if (from.curve == to.curve)
-      return true;
-    if (options_.dimension == 3)
-      return has_common_vertex(from.curve, to.curve);
-    return narrow_to_corner(face, from, to, p, width);
+  bool have_common_vertex(local_id a, local_id b) const {
+    const auto& ends = topology().curves[a].vertices;
+    return std::any_of(ends.begin(), ends.end(), [&](local_id v) { return ends_at(b, v); });
   }
 
-  /// Whether the curves have a common vertex so near that the angle between them explains the width.
-  bool narrow_to_corner(local_id face, const passed_chord& from, const passed_chord& to, vec3 p,
-                        double width) const {
-    const double angle = norm(chords_.into_face(face, from) + chords_.into_face(face, to)); // radians, about
+  /// Whether two curves may be the sides of a strip.
+  bool may_be_sides(local_id a, local_id b) const {
+    return a != b && (options_.dimension == 2 || !have_common_vertex(a, b));
+  }
+
+  /// Whether two curves have a common vertex so near that the angle between them explains how far `p`, on the
+  /// first one, is from the other.
+  bool narrow_to_corner(const passed_chord& from, const passed_chord& to, vec3 p, double width) const {
+    if (!have_common_vertex(from.curve, to.curve))
+      return false;
+    const vec3 along = model_.curve_frame(from.curve, from.line->middle).derivative;
+    const vec3 beside = model_.curve_frame(to.curve, chords_.foot_of(to, p)).derivative;
+    const double sine = norm(cross(normalized(along), normalized(beside)));
     const auto& ends = topology().curves[from.curve].vertices;
     return std::any_of(ends.begin(), ends.end(), [&](local_id v) {
-      return ends_at(to.curve, v) && angle * distance(topology().vertices[v].point, p) > 0.5 * width;
+      return ends_at(to.curve, v) && sine * distance(topology().vertices[v].point, p) > 0.5 * width;
     });
   }
 
@@ -100,8 +99,9 @@ private:
         [&](local_id k) {
           const passed_chord& other = chords.passed[k];
           const vec3 foot = foot_on(*other.line, p);
-          if (const double away = distance(foot, p); away < width && is_across(face, along, other, p, foot) &&
-                                                     !is_at_corner(face, along, other, p, away)) {
+          if (const double away = distance(foot, p); away < width && may_be_sides(along.curve, other.curve) &&
+                                                     is_across(face, along, other, p, foot) &&
+                                                     !narrow_to_corner(along, other, p, away)) {
             width = away;
             nearest = &other;
           }

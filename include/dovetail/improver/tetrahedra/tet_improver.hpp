@@ -53,7 +53,7 @@ public:
                const any_sizing& size)
       : parameters_(parameters), mesh_(mesh), surface_(surface), size_(size) {}
 
-  /// Raises the poor elements to the target, then twice the worst ones once more.
+  /// Raises the poor elements to the target, then the worst ones once more, and then the bad ones.
   void raise(report& result) const {
     auto limits = limits_for(Measure::from_angle(parameters_.target_angle));
     poor_tetrahedra<Measure> poor(mesh_, surface_);
@@ -67,7 +67,8 @@ public:
     poor.hard_effort.open.share = 0.01;
     poor.hard_effort.narrow.share = 0.0005;
     plan.run(limits);
-    plan.run(limits_for_bad(limits));
+    if (parameters_.bad_angle > 0)
+      plan.run(limits_for_bad(limits));
     if (parameters_.global_passes > 0)
       smooth_globally(kept, result);
     plan.log().write_to(result);
@@ -99,12 +100,10 @@ private:
     limits.operations.band = {&size_, parameters_.shortest_edge, parameters_.longest_edge};
     return limits;
   }
-  /// For elements that nothing has helped, mostly beside details of the boundary much smaller than the size:
-  /// what is made there may have edges as short as it takes.
-  static schedule_limits<3> limits_for_bad(schedule_limits<3> limits) {
-    constexpr double bad_angle = 15, part_of_shortest = 0.25;
+  schedule_limits<3> limits_for_bad(schedule_limits<3> limits) const {
+    constexpr double part_of_shortest = 0.25;
     auto& kept = limits.operations;
-    kept.target = std::min(kept.target, static_cast<float>(Measure::from_angle(bad_angle)));
+    kept.target = std::min(kept.target, static_cast<float>(Measure::from_angle(parameters_.bad_angle)));
     kept.band.shortest *= part_of_shortest;
     return limits;
   }
