@@ -425,7 +425,7 @@ TEST_CASE("a row of means is over the seeds that a run was made with, and those 
   CHECK(value_in(result, row, in_pieces, &row_values::margin) == doctest::Approx(3.620).epsilon(1e-3));
   CHECK(std::isnan(value_in(result, row, 0, &row_values::margin))); // of one run
   CHECK(markdown_text(result).find("| 4.0 ± 3.6 |") != std::string::npos);
-  CHECK(csv_text(result).find(",\"aircraft, raw, no repair, no rule\",margin,3.6") != std::string::npos);
+  CHECK(csv_text(result).find(",\"aircraft, raw, no repair, no rule\",margin,3.61") != std::string::npos);
   CHECK(json::parse(json_text(result)).at("rows").at(3).at("margin").at(in_pieces).is_number());
   run.beside.back().measured = json();
   CHECK(value_in(result, row, in_pieces, &row_values::measured) == doctest::Approx(3));

@@ -2,7 +2,7 @@
 # Every script can be read by its interpreter, and those that are called by their name may be executed.
 set -euo pipefail
 status=0
-read=0
+count=0
 fail() {
   echo "$*" >&2
   status=1
@@ -19,7 +19,7 @@ while IFS= read -r file; do
     [[ $first == '#!/'[a-z]* ]] || fail "$file: its first line names no interpreter"
     [[ -x $file ]] || fail "$file: may not be executed"
   fi
-  read=$((read + 1))
+  count=$((count + 1))
 done < <(find . \( -name .git -o -name __pycache__ -o -path './build*' \) -prune -o -type f -print | sed 's|^\./||' | sort)
-[[ $read -gt 50 ]] || fail "only $read scripts were found"
+[[ $count -gt 50 ]] || fail "only $count scripts were found"
 exit "$status"

@@ -84,13 +84,13 @@ public:
   }
 
   /// The parameter of the nearest place to `p` of the curve that a chord is of, near that chord.
-  double foot_of(const passed_chord& near, vec3 p) const {
+  double foot_parameter(const passed_chord& near, vec3 p) const {
     const auto& range = model_.topology().curves[near.curve].t;
     return std::clamp(model_.project_to_curve(near.curve, p, near.line->middle), range[0], range[1]);
   }
   /// That place.
   vec3 foot_on(const passed_chord& near, vec3 p) const {
-    return model_.curve_point(near.curve, foot_of(near, p));
+    return model_.curve_point(near.curve, foot_parameter(near, p));
   }
 
 private:

@@ -74,7 +74,7 @@ private:
     if (!have_common_vertex(from.curve, to.curve))
       return false;
     const vec3 along = model_.curve_frame(from.curve, from.line->middle).derivative;
-    const vec3 beside = model_.curve_frame(to.curve, chords_.foot_of(to, p)).derivative;
+    const vec3 beside = model_.curve_frame(to.curve, chords_.foot_parameter(to, p)).derivative;
     const double sine = norm(cross(normalized(along), normalized(beside)));
     const auto& ends = topology().curves[from.curve].vertices;
     return std::any_of(ends.begin(), ends.end(), [&](local_id v) {
