@@ -64,13 +64,14 @@ simplicial_mesh<3> slab(double thickness) {
   return mesh;
 }
 
-/// The slab, its thickness going with x, from an edge at x = 0 on.
-simplicial_mesh<3> blade() {
+/// The slab, as thick as `thickness` says, at points where that is 0 too.
+template <class Thickness>
+simplicial_mesh<3> thinned(const Thickness& thickness) {
   auto mesh = slab(1);
   std::vector<local_id> kept(mesh.points.size());
   for (std::size_t v = 0; v < kept.size(); ++v) {
     vec3& p = mesh.points[v];
-    p.z *= 0.05 * p.x;
+    p.z *= thickness(p);
     const auto same = std::find_if(mesh.points.begin(), mesh.points.begin() + static_cast<long>(v),
                                    [&](vec3 q) { return distance(p, q) < 1e-9; });
     kept[v] = static_cast<local_id>(same - mesh.points.begin());
@@ -83,6 +84,11 @@ simplicial_mesh<3> blade() {
     return std::adjacent_find(element.begin(), element.end()) != element.end();
   });
   return mesh;
+}
+
+/// From an edge at x = 0 on.
+simplicial_mesh<3> blade() {
+  return thinned([](vec3 p) { return 0.05 * p.x; });
 }
 
 /// With boundary triangles on the faces that `face_of` says.
@@ -195,6 +201,58 @@ TEST_CASE("where two faces run into each other elements between them are in an a
   CHECK(std::isinf(split_of_one.thinnest_wall)); // no element goes from one side to the other
   CHECK(split_of_two.bad_by(poor_cause::thin_wall) == 0);
   CHECK(split_of_two.bad_by(poor_cause::inside) == 0);
+}
+
+TEST_CASE("where two faces touch at a point elements between them are in an angle of the model") {
+  const auto mesh = thinned([](vec3 p) { return 0.05 * std::hypot(p.x - 0.4, p.y - 0.4); });
+  const auto of_one = by_faces(mesh, [](const auto&) { return 0; });
+  const auto of_two = by_faces(mesh, [&](const auto& t) { return face_at(mesh, t) == below ? 1 : 0; });
+  CHECK(of_one.bad_by(poor_cause::thin_wall) > 0);
+  CHECK(of_two.bad_by(poor_cause::thin_wall) == 0);
+  CHECK(of_two.bad_by(poor_cause::model_angle) > of_one.bad_by(poor_cause::model_angle));
+
+  // Corners of the lower face in the plane of another one touch nothing.
+  const auto sheet = slab(0.01);
+  const auto in_quarters = by_faces(sheet, [&](const auto& t) {
+    const auto in = [&](bool first_x, bool first_y) {
+      return all_at(sheet, t, [&](vec3 p) {
+        return (first_x ? p.x < 0.41 : p.x > 0.39) && (first_y ? p.y < 0.41 : p.y > 0.39);
+      });
+    };
+    return face_at(sheet, t) != below ? 0 : in(true, true) ? 1 : in(false, false) ? 2 : 3;
+  });
+  CHECK(in_quarters.bad_by(poor_cause::thin_wall) ==
+        by_faces(sheet, [](const auto&) { return 0; }).bad_by(poor_cause::thin_wall));
+}
+
+TEST_CASE("the vertices that an interface has between two faces are between them") {
+  auto mesh = blade();
+  // As in the middle of elements above: of an interface now, which goes through each.
+  for (std::size_t e = 0, n = mesh.elements.size(); e < n; ++e) {
+    const simplex<3> whole = mesh.elements[e];
+    const auto middle = static_cast<local_id>(mesh.points.size());
+    const auto p = corners(std::span<const vec3>(mesh.points), whole);
+    mesh.points.push_back(0.25 * (p[0] + p[1] + p[2] + p[3]));
+    for (std::size_t k = 0; k < 4; ++k) {
+      simplex<3> part = whole;
+      part[k] = middle;
+      if (k == 0)
+        mesh.elements[e] = part;
+      else
+        mesh.elements.push_back(part);
+    }
+  }
+  const auto first_between = static_cast<local_id>(blade().points.size());
+  std::vector<local_id> parts(mesh.elements.size());
+  for (std::size_t e = 0; e < parts.size(); ++e) // the first quarter of each is a piece, and the others
+    parts[e] = e < blade().elements.size() ? 0 : 1;
+  const auto found = all_poor(mesh, parts, [&](const auto& vertices) {
+    const bool between =
+        std::any_of(vertices.begin(), vertices.end(), [&](local_id v) { return v >= first_between; });
+    return between ? host{3, 0} : host{2, face_at(mesh, vertices) == below ? 1 : 0};
+  });
+  CHECK(found.bad_by(poor_cause::thin_piece) == 0);
+  CHECK(found.bad_by(poor_cause::thin_wall) == 0);
 }
 
 TEST_CASE("narrow triangles where two curves of a face run into each other are in an angle of the model") {

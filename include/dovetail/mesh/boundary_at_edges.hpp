@@ -14,6 +14,7 @@
 #include <cmath>
 #include <compare>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,7 +51,10 @@ public:
     sort_unique(faces_of_vertices_);
     add_faces_around(piece);
     find_wedges(piece);
-    find_corners(piece);
+    const std::vector<turn> turns = turns_of_faces();
+    find_touching(piece, turns);
+    sort_unique(wedges_);
+    find_corners(piece, turns);
   }
 
   /// Whether the element is between surfaces: each of its vertices is on the model's surface, or joined to
@@ -59,8 +63,8 @@ public:
     return std::all_of(element.begin(), element.end(), [&](local_id v) { return in_wall_[v]; });
   }
 
-  /// Whether the element, which is in a wall, has vertices at two faces of the model that meet, somewhere on
-  /// this boundary, in a small angle: what is between them is thin for that.
+  /// Whether the element, which is in a wall, has vertices at two faces of the model that meet or touch,
+  /// somewhere on this boundary, in a small angle: what is between them is thin for that.
   bool is_in_wedge(const simplex<3>& element) const {
     return std::any_of(wedges_.begin(), wedges_.end(), [&](const auto& pair) {
       const auto [first, second] = pair;
@@ -119,6 +123,11 @@ private:
     vec3 tip;        ///< the vertex opposite to it
     local_id face;   ///< of the model, or no_id
   };
+  /// A corner of a triangle on a face of the model.
+  struct turn {
+    local_id vertex, face;
+    std::array<local_id, 2> others;
+  };
   /// Where two curves of a face meet in a small angle.
   struct corner {
     local_id face;
@@ -157,8 +166,8 @@ private:
     return degrees_per_radian * std::atan2(norm(cross(a, b)), dot(a, b));
   }
 
-  /// The vertices on the model's surface, and those vertices of the elements that are inside the piece and
-  /// joined to few others that are not on the surface.
+  /// The vertices on the model's surface, and those others of the elements that are joined to few of the
+  /// piece that are not on it.
   static std::vector<bool> vertices_in_walls(const mesh_piece& piece, const fine_skeleton& skeleton,
                                              std::span<const simplex<3>> elements) {
     constexpr std::ptrdiff_t most_beside = 2; // a layer between two surfaces has more, a chain has not
@@ -169,7 +178,7 @@ private:
     std::vector<bool> asked(piece.mesh.points.size(), false);
     for (const simplex<3>& element : elements)
       for (const local_id v : element)
-        asked[v] = v >= shared;
+        asked[v] = !on_surface[v];
     std::vector<std::pair<local_id, local_id>> beside; // a vertex, another one that is not on the surface
     for (const simplex<3>& element : piece.mesh.elements)
       for (const local_id v : element)
@@ -188,18 +197,21 @@ private:
     return in_wall;
   }
 
-  /// A vertex inside a wall is at the faces of those that it is joined to.
+  /// A vertex between the surfaces of a wall is at the faces of those that it is joined to.
   void add_faces_around(const mesh_piece& piece) {
     const auto on_faces = faces_of_vertices_;
+    const auto faces_at = [&](local_id v) {
+      const auto first = std::lower_bound(on_faces.begin(), on_faces.end(), std::pair(v, no_id));
+      return std::span(first,
+                       std::find_if(first, on_faces.end(), [&](const auto& at) { return at.first != v; }));
+    };
     for (const simplex<3>& element : piece.mesh.elements)
-      for (const local_id inside : element) {
-        if (inside < static_cast<local_id>(piece.skeleton_points.size()) || !in_wall_[inside])
+      for (const local_id between : element) {
+        if (!in_wall_[between] || !faces_at(between).empty())
           continue;
-        for (const local_id v : element) {
-          auto at = std::lower_bound(on_faces.begin(), on_faces.end(), std::pair(v, no_id));
-          for (; at != on_faces.end() && at->first == v; ++at)
-            faces_of_vertices_.push_back({inside, at->second});
-        }
+        for (const local_id v : element)
+          for (const auto& at : faces_at(v))
+            faces_of_vertices_.push_back({between, at.second});
       }
     sort_unique(faces_of_vertices_);
   }
@@ -218,26 +230,50 @@ private:
             wedges_.push_back({lower, upper});
         }
     }
-    sort_unique(wedges_);
   }
 
-  /// The angles of a face's triangles at a vertex sum up to the angle of its boundary there. Where the sum is
-  /// small, and two curves begin at the vertex, there is a corner.
-  void find_corners(const mesh_piece& piece) {
-    struct turn {
-      local_id vertex, face;
-      std::array<local_id, 2> others;
-    };
+  /// The corners of triangles of the model's faces, by vertex and face.
+  std::vector<turn> turns_of_faces() const {
     std::vector<turn> turns;
     for (const triangle& t : triangles_)
       for (std::size_t k = 0; k < 3 && t.face != no_id; ++k)
         turns.push_back({t.vertices[k], t.face, {t.vertices[(k + 1) % 3], t.vertices[(k + 2) % 3]}});
-    const auto order = [](const turn& a, const turn& b) {
+    stable_sort_all(turns, [](const turn& a, const turn& b) {
       return std::pair(a.vertex, a.face) < std::pair(b.vertex, b.face);
-    };
-    stable_sort_all(turns, order);
+    });
+    return turns;
+  }
+
+  /// Faces that touch at a vertex, a sphere in another for example, meet in a small angle, though at no edge.
+  void find_touching(const mesh_piece& piece, std::span<const turn> turns) {
     for (auto first = turns.begin(), last = first; first != turns.end(); first = last) {
-      last = std::upper_bound(first, turns.end(), *first, order);
+      last = std::find_if(first, turns.end(), [&](const turn& t) { return t.vertex != first->vertex; });
+      if (first->face == std::prev(last)->face)
+        continue;
+      for (auto a = first; a != last; ++a)
+        for (auto b = a + 1; b != last; ++b)
+          if (a->face != b->face && (is_above(piece, *a, *b) || is_above(piece, *b, *a)))
+            wedges_.push_back({a->face, b->face});
+    }
+  }
+  /// Whether the middle of a corner is over another one of the same vertex, and in a small angle to it.
+  bool is_above(const mesh_piece& piece, const turn& upper, const turn& lower) const {
+    const vec3 p = piece.mesh.points[upper.vertex];
+    const auto towards = [&](local_id v) { return normalized(piece.mesh.points[v] - p); };
+    const vec3 middle = towards(upper.others[0]) + towards(upper.others[1]);
+    const vec3 a = towards(lower.others[0]), b = towards(lower.others[1]);
+    const vec3 normal = cross(a, b);
+    const vec3 below = off_line(middle, {}, normal);
+    return dot(cross(a, below), normal) > 0 && dot(cross(below, b), normal) > 0 &&
+           degrees(middle, below) < small_deg_;
+  }
+
+  /// The angles of a face's triangles at a vertex sum up to the angle of its boundary there. Where the sum is
+  /// small, and two curves begin at the vertex, there is a corner.
+  void find_corners(const mesh_piece& piece, std::span<const turn> turns) {
+    for (auto first = turns.begin(), last = first; first != turns.end(); first = last) {
+      last = std::find_if(first, turns.end(),
+                          [&](const turn& t) { return t.vertex != first->vertex || t.face != first->face; });
       double turned = 0;
       std::vector<local_id> ends;
       for (auto at = first; at != last; ++at) {
@@ -268,7 +304,7 @@ private:
   std::vector<triangle> triangles_;
   std::vector<flap> flaps_;
   std::vector<std::pair<local_id, local_id>> faces_of_vertices_; ///< vertex, face
-  std::vector<std::pair<local_id, local_id>> wedges_;            ///< faces that meet in a small angle
+  std::vector<std::pair<local_id, local_id>> wedges_; ///< faces that meet or touch in a small angle
   std::vector<corner> corners_;
 };
 
