@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -140,11 +141,20 @@ private:
         const virtual_coedge& other = loops[l][k];
         if ((l == p.loop && (k == p.place || goes_on_to(p, k))) || topology_.curve(other.curve).degenerate)
           continue;
+        const std::vector<vec3> ends = topology_.samples(other.curve, 2);
         for (const vec3& point : points)
-          if (nearest_on(topology_, {{other.curve, true}}, point).distance < least * width_)
+          if (may_be_within(least * width_, point, other.curve, ends) &&
+              nearest_on(topology_, {{other.curve, true}}, point).distance < least * width_)
             return false;
       }
     return true;
+  }
+
+  /// False where the way from one end of a curve by a point near it to the other end would be longer than the
+  /// curve, which holds for most.
+  bool may_be_within(double limit, vec3 p, local_id c, std::span<const vec3> ends) const {
+    constexpr double chords = 1.05; // the length is that of chords
+    return distance(p, ends[0]) + distance(p, ends[1]) <= chords * topology_.length(c) + 2 * limit;
   }
 
   /// Whether another coedge of its loop has a vertex in common with a passage, and they do not follow each
