@@ -282,7 +282,7 @@ private:
           return suppression_.retried(source, [&] { return generate(source, folder); });
         });
     if constexpr (D == 3)
-      if (source.volume && result.failures.empty() && parameters_.only.empty())
+      if (leads_ && source.volume && result.failures.empty() && parameters_.only.empty())
         compare_volume(result.mesh.skeleton, volume ? volume->wait().value_or(std::nullopt) : source.volume(),
                        result.summary);
     describe(source, result);
@@ -308,8 +308,7 @@ private:
   /// The volume of the model as drawn, which takes as long as a stage. There are stages that leave a
   /// processor free.
   std::unique_ptr<made_aside<std::optional<double>>> volume_aside(const model_source& source) const {
-    if (D == 2 || !source.volume || !parameters_.only.empty() || options_.network ||
-        policies_.executor.workers() < 2)
+    if (D == 2 || !leads_ || !source.volume || !parameters_.only.empty() || policies_.executor.workers() < 2)
       return {};
     return std::make_unique<made_aside<std::optional<double>>>(source.volume);
   }

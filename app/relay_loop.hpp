@@ -45,7 +45,7 @@ public:
 
   rank_end run() {
     // When a relay is killed, mpirun asks the others to stop: not what the user did.
-    while (!computing_.has_ended(looks_ < looks_before_long_pause ? pause : long_pause, duties_.all_live)) {
+    while (!computing_.has_ended(pause(), duties_.all_live)) {
       ++looks_;
       if (others_go_on_)
         look_for_messages();
@@ -56,10 +56,11 @@ public:
   }
 
 private:
-  /// Between two looks; a message waits so long, or longer where none has come for a while.
-  static constexpr std::chrono::milliseconds pause{1};
-  static constexpr std::chrono::milliseconds long_pause{4};
-  static constexpr int looks_before_long_pause = 100;
+  /// Between two looks. A message waits so long: where one was there the next follows soon, as an answer does.
+  std::chrono::microseconds pause() const {
+    constexpr std::chrono::microseconds first{50}, next{500}, last{4000};
+    return looks_ < 40 ? first : looks_ < 150 ? next : last;
+  }
 
   void look_for_messages() {
     const auto pass_messages = [&] {

@@ -143,10 +143,10 @@ supervisor::~supervisor() {
     sigprocmask(SIG_SETMASK, &before_, nullptr);
 }
 
-bool supervisor::has_ended(std::chrono::milliseconds at_most, const std::function<bool()>& passes_on) {
+bool supervisor::has_ended(std::chrono::microseconds at_most, const std::function<bool()>& passes_on) {
   if (over_)
     return true;
-  const timespec time{0, static_cast<long>(at_most.count()) * 1'000'000};
+  const timespec time{0, static_cast<long>(at_most.count()) * 1'000};
   const int signal = sigtimedwait(&signals_, nullptr, &time);
   const pid_t found = ::waitpid(child_, &status_, WNOHANG);
   if (found < 0 && errno == ECHILD) // somebody else has waited for it: how it ended nobody knows

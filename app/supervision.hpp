@@ -43,7 +43,7 @@ public:
   /// Looks after the child, for so long (less than a second) or until there is something to see to. Where
   /// `passes_on()` is false, the child is not told of a request to stop that comes.
   bool has_ended(
-      std::chrono::milliseconds at_most, const std::function<bool()>& passes_on = [] { return true; });
+      std::chrono::microseconds at_most, const std::function<bool()>& passes_on = [] { return true; });
   /// As a signal does, the first that comes.
   void ask_to_stop();
   bool is_asked_to_stop() const { return asked_to_stop_; }
