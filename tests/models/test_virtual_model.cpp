@@ -65,6 +65,23 @@ void check_kept_whole(const any_geometry& given) {
   CHECK(counts_of(made.topology()) == counts_of(given.topology()));
 }
 
+/// Between the curves of a face's only loop, where they meet.
+double sharpest_corner_deg(const any_geometry& model, local_id face) {
+  const auto& loop = model.topology().faces[face].coedges;
+  const auto direction = [&](std::size_t k, bool at_end) {
+    const auto& passed = loop[k % loop.size()];
+    const auto& t = model.topology().curves[passed.curve].t;
+    const vec3 along = model.curve_frame(passed.curve, t[at_end != passed.reversed ? 1 : 0]).derivative;
+    return normalized(passed.reversed ? -along : along);
+  };
+  double sharpest = 180;
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const double between = std::acos(-dot(direction(k, true), direction(k + 1, false)));
+    sharpest = std::min(sharpest, degrees_per_radian * between);
+  }
+  return sharpest;
+}
+
 occt_model model_of(const TopoDS_Shape& shape) {
   return occt_shape_from(shape).model;
 }
@@ -238,6 +255,18 @@ TEST_CASE("the end of a face that begins at a point is cut where it is wide enou
   CHECK(made.summary().get("narrow_ends") == 1);
   CHECK(counts_of(made.topology()) == entity_counts{7, 15, 10});
   check_kept_whole(chamfered_cube(0, 10.0 / 2).model()); // wide at once
+}
+
+TEST_CASE("what is left of a strip whose end was cut is blunt there, however short") {
+  for (const double width : {0.4, 0.55, 0.7}) {
+    CAPTURE(width);
+    const double across = width * std::numbers::sqrt2;
+    const virtual_model made(any_geometry(chamfered_cube(width, width).model()),
+                             [&](vec3 p) { return (p.z < 3 ? 1.3 : 0.5) * across / 0.25; });
+    REQUIRE(kinds_of(made) == std::vector{kind::narrow_end});
+    CHECK(made.suppressed()[0].place.z < 3);
+    CHECK(sharpest_corner_deg(any_geometry(made), made.suppressed()[0].entity) > 18);
+  }
 }
 
 TEST_CASE("the end that is cut leaves no short edge, nor a face that is all but gone") {

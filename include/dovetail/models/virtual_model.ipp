@@ -45,7 +45,10 @@ struct virtual_model::data {
   std::vector<suppressed_detail> suppressed;
 
   void bend_curves(const any_geometry& model, const virtual_topology::editable_topology& edited) {
-    constexpr double reach = 6; // displacements: the curve turns by no more than about 20 degrees
+    // In displacements of its end: a curve turns there by no more than about 20 degrees, or more where it
+    // would bend beyond its middle: what is left of a strip ends bluntly, and is no wedge all along.
+    constexpr double reach = 6;
+    constexpr double least_reach = 2;
     bent.resize(topology.curves.size());
     for (std::size_t c = 0; c < topology.curves.size(); ++c) {
       auto& curve = topology.curves[c];
@@ -59,8 +62,9 @@ struct virtual_model::data {
         const vec3 from = model.curve_point(inner_curve[c], curve.t[end]);
         const double moved = distance(vertex, from);
         const double chord = distance(from, model.curve_point(inner_curve[c], curve.t[1 - end]));
-        const bool is_short = 2 * reach * moved > chord && chord > 0;
-        bent[c][end] = {from, vertex - from, is_short ? chord : reach * moved, is_short};
+        const bool is_short = chord > 0 && chord < 2 * least_reach * moved;
+        const double most = chord > 0 ? 0.5 * chord : reach * moved;
+        bent[c][end] = {from, vertex - from, is_short ? chord : std::min(reach * moved, most), is_short};
         curve.tolerance += moved;
       }
     }
