@@ -1,6 +1,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"

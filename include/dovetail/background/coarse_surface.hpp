@@ -11,7 +11,6 @@
 #include "dovetail/core/report.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
-#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/size_balls.hpp"
@@ -75,10 +74,10 @@ coarse_surface_result coarse_surface_by(const any_geometry& model, const any_siz
 /// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
 /// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed, and
 /// what `finer_at` throws.
-template <surface_mesher Mesher>
+template <executor Executor, surface_mesher Mesher>
 coarse_surface_result coarse_surface(const any_geometry& model, const any_sizing& sizing,
-                                     const coarse_surface_parameters& parameters,
-                                     const any_executor& run_tasks, const Mesher& mesher) {
+                                     const coarse_surface_parameters& parameters, const Executor& run_tasks,
+                                     const Mesher& mesher) {
   const auto mesh_them = [&](region_set& faces, const refined_sizing& size, region_memo& made,
                              const mesh_regions_options& options) {
     return mesh_regions(model, faces, mesher, size, run_tasks, made, options);

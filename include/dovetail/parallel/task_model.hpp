@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/geometry/any_geometry.hpp"
-#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/concepts.hpp"
 
 #include <optional>
 
@@ -13,7 +13,8 @@ namespace dovetail {
 /// threads may not share the model. The model must outlive it.
 class task_model {
 public:
-  task_model(const any_geometry& model, const any_executor& run) : shared_(&model) {
+  template <executor Executor>
+  task_model(const any_geometry& model, const Executor& run) : shared_(&model) {
     if (runs_in_threads(run) && !model.thread_safe())
       own_.emplace(model);
   }

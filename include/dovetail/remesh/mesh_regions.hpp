@@ -13,7 +13,7 @@
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
-#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/concepts.hpp"
 #include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/memo.hpp"
 #include "dovetail/remesh/concepts.hpp"
@@ -224,8 +224,9 @@ namespace detail {
 using region_mesher = std::function<patch_mesh(const any_surface&, const surface_region&, const any_sizing&)>;
 
 /// `mesh_regions` by such a function.
+template <executor Executor>
 meshed_regions make_regions(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
-                            const refined_sizing& size, const any_executor& run, region_memo& made,
+                            const refined_sizing& size, const Executor& run, region_memo& made,
                             const mesh_regions_options& options);
 
 } // namespace detail
@@ -244,9 +245,9 @@ meshed_regions make_regions(const any_geometry& model, region_set& set, const re
 /// \param run carries out independent tasks; the result does not depend on it
 /// \param made meshes of earlier calls; grows
 /// \param options attempts and progress
-template <surface_mesher Mesher>
+template <surface_mesher Mesher, executor Executor>
 meshed_regions mesh_regions(const any_geometry& model, region_set& set, const Mesher& mesher,
-                            const refined_sizing& size, const any_executor& run, region_memo& made,
+                            const refined_sizing& size, const Executor& run, region_memo& made,
                             const mesh_regions_options& options) {
   if (runs_in_threads(run) && !may_run_in_threads(mesher))
     throw usage_error(
@@ -297,6 +298,8 @@ void append_region(const surface_region& region, const patch_mesh& made, std::ve
 }
 
 } // namespace dovetail
+
+#include "dovetail/remesh/region_making.hpp"
 
 #ifndef DOVETAIL_COMPILED
 #include "dovetail/remesh/mesh_regions.ipp"

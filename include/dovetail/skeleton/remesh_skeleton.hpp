@@ -8,10 +8,12 @@
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"
+#include "dovetail/skeleton/skeleton_assembly.hpp"
 
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -91,8 +93,8 @@ mesh_patches_by(const skeleton_to_remesh& of,
 /// \param run carries out independent tasks; the result does not depend on it
 /// \param made patches of earlier rounds; grows
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
-template <surface_mesher Mesher>
-skeleton_patches mesh_patches(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
+template <surface_mesher Mesher, executor Executor>
+skeleton_patches mesh_patches(const skeleton_to_remesh& of, const Mesher& mesher, const Executor& run,
                               region_memo& made, const progress& on_progress = {}) {
   const auto mesh_them = [&](region_set& set, const mesh_regions_options& options) {
     return mesh_regions(of.model, set, mesher, of.size, run, made, options);
@@ -105,6 +107,15 @@ std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
                                               const coarse_skeleton& skeleton, const region_memo& made,
                                               double threshold_deg);
 
+namespace detail {
+
+/// Joins patches by a function that carries the tasks out.
+remeshed_skeleton join_patches_by(const skeleton_to_remesh& of, skeleton_patches patches,
+                                  const region_memo& made,
+                                  const std::function<fine_skeleton(const skeleton_assembly&)>& assemble);
+
+} // namespace detail
+
 /// Puts patches together. The result is on all ranks, in memory that they share where they can.
 /// Linear.
 /// Throws nothing but for a lack of memory.
@@ -113,9 +124,13 @@ std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
 /// \param run tells all ranks
 /// \param made what `mesh_patches` has made
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
-remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches,
-                               const any_executor& run, const region_memo& made,
-                               const progress& on_progress = {});
+template <executor Executor>
+remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches, const Executor& run,
+                               const region_memo& made, const progress& on_progress = {}) {
+  return detail::join_patches_by(
+      of, std::move(patches), made,
+      [&](const detail::skeleton_assembly& assembly) { return assembly.run(run, on_progress); });
+}
 
 /// `mesh_patches` and `join_patches`.
 /// About linear in the triangles made. Patches that fail are in the result; throws `mesher_error` when one
@@ -125,8 +140,8 @@ remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches pa
 /// \param run carries out independent tasks; the result does not depend on it
 /// \param made patches of earlier rounds; grows
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
-template <surface_mesher Mesher>
-remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const Mesher& mesher, const any_executor& run,
+template <surface_mesher Mesher, executor Executor>
+remeshed_skeleton remesh_skeleton(const skeleton_to_remesh& of, const Mesher& mesher, const Executor& run,
                                   region_memo& made, const progress& on_progress = {}) {
   return join_patches(of, mesh_patches(of, mesher, run, made, on_progress), run, made, on_progress);
 }

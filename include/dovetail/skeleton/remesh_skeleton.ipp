@@ -172,9 +172,9 @@ DOVETAIL_INLINE std::vector<local_id> faces_with_small_angles(const skeleton_pat
   return faces;
 }
 
-DOVETAIL_INLINE remeshed_skeleton join_patches(const skeleton_to_remesh& of, skeleton_patches patches,
-                                               const any_executor& run, const region_memo& made,
-                                               const progress& on_progress) {
+DOVETAIL_INLINE remeshed_skeleton
+detail::join_patches_by(const skeleton_to_remesh& of, skeleton_patches patches, const region_memo& made,
+                        const std::function<fine_skeleton(const skeleton_assembly&)>& assemble) {
   const detail::skeleton_parts parts(of);
   const detail::patches_to_join joined{of.skeleton,
                                        of.lines,
@@ -184,7 +184,7 @@ DOVETAIL_INLINE remeshed_skeleton join_patches(const skeleton_to_remesh& of, ske
                                        of.material_of_subdomain};
   const detail::skeleton_assembly assembly(joined);
   remeshed_skeleton result;
-  result.fine = assembly.run(run, on_progress);
+  result.fine = assemble(assembly);
   result.patches.line_points = static_cast<local_id>(of.lines.points.size());
   for (const std::size_t first : assembly.first_triangles())
     result.patches.first_triangle.push_back(static_cast<local_id>(first));
