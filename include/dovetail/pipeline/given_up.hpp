@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/run_results.hpp"
 #include "dovetail/pipeline/background.hpp"
 

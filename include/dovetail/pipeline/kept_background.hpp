@@ -3,6 +3,7 @@
 /// field is a function and stays with the caller; what the surface asks of it are data.
 #pragma once
 
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/run_results.hpp"
 #include "dovetail/pipeline/background.hpp"

@@ -39,10 +39,10 @@ inline double least_corner_angle(const patch_boundary& boundary, const patch_mes
 }
 
 /// The meshes of the regions of one set.
-template <executor Executor>
+template <geometry_model Geometry, executor Executor>
 class region_making {
 public:
-  region_making(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
+  region_making(const Geometry& model, region_set<Geometry>& set, const region_mesher& mesh_it,
                 const refined_sizing& size, const Executor& run, region_memo& made,
                 const mesh_regions_options& options)
       : model_(model), set_(set), mesh_it_(mesh_it), size_(size), run_(run), made_(made), options_(options) {
@@ -75,7 +75,7 @@ private:
     return size_.is_refined() ? set_.region(model_, r) : set_.outline(model_, r);
   }
 
-  box3 place(const any_geometry& model, std::size_t r, const patch_boundary& boundary) const {
+  box3 place(const Geometry& model, std::size_t r, const patch_boundary& boundary) const {
     return size_.is_refined() ? place_of(boundary, set_.surface_of(model, r)) : box3{};
   }
 
@@ -167,7 +167,7 @@ private:
         });
   }
 
-  patch_mesh make(const any_geometry& model, std::size_t r) const {
+  patch_mesh make(const Geometry& model, std::size_t r) const {
     const surface_region region = set_.region(model, r);
     if (region.boundary.segments.empty())
       return {}; // a face that a model has by number only
@@ -259,8 +259,8 @@ private:
     return true;
   }
 
-  const any_geometry& model_;
-  region_set& set_;
+  const Geometry& model_;
+  region_set<Geometry>& set_;
   const region_mesher& mesh_it_;
   const refined_sizing& size_;
   const Executor& run_;
@@ -272,11 +272,11 @@ private:
   meshed_regions result_;
 };
 
-template <executor Executor>
-meshed_regions make_regions(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
+template <geometry_model Geometry, executor Executor>
+meshed_regions make_regions(const Geometry& model, region_set<Geometry>& set, const region_mesher& mesh_it,
                             const refined_sizing& size, const Executor& run, region_memo& made,
                             const mesh_regions_options& options) {
-  return region_making<Executor>(model, set, mesh_it, size, run, made, options).run();
+  return region_making<Geometry, Executor>(model, set, mesh_it, size, run, made, options).run();
 }
 
 } // namespace dovetail::detail

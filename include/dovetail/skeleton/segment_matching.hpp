@@ -30,10 +30,10 @@ namespace dovetail {
 namespace detail {
 
 /// Mends faces as if one by one, in their order; those side by side that are apart.
-template <surface_mesher Mesher, executor Executor>
+template <geometry_model Geometry, surface_mesher Mesher, executor Executor>
 class segment_matcher {
 public:
-  segment_matcher(const any_geometry& model, std::span<const vec3> coarse_points, coarse_skeleton& coarse,
+  segment_matcher(const Geometry& model, std::span<const vec3> coarse_points, coarse_skeleton& coarse,
                   remeshed_lines lines, const refined_sizing& size, double threshold, const Mesher& mesher,
                   const Executor& run, matched_faces& made, const progress& on_progress)
       : model_(model), coarse_points_(coarse_points), coarse_(coarse), lines_(std::move(lines.lines)),
@@ -124,10 +124,10 @@ private:
     });
   }
 
-  std::vector<face_segments> segments_for(const faces_in_turn& faces, const any_geometry& model,
+  std::vector<face_segments> segments_for(const faces_in_turn& faces, const Geometry& model,
                                           matched_skeleton skeleton) const {
     std::vector<face_segments> chosen;
-    std::optional<segment_trials<Mesher>> trials;
+    std::optional<segment_trials<Geometry, Mesher>> trials;
     for (const local_id f : faces) {
       if (!trials)
         trials.emplace(model, skeleton, mesher_);
@@ -153,7 +153,7 @@ private:
       }
   }
 
-  const any_geometry& model_;
+  const Geometry& model_;
   std::span<const vec3> coarse_points_;
   coarse_skeleton& coarse_;
   std::vector<fine_line> lines_;
@@ -180,8 +180,8 @@ private:
 /// the number of lines with such segments. Costs up to some hundred meshes of each face with a smaller angle,
 /// fewer where its corners tell that they cannot help. Throws `mesher_error` when a trial cannot be
 /// evaluated.
-template <surface_mesher Mesher, executor Executor>
-std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
+template <geometry_model Geometry, surface_mesher Mesher, executor Executor>
+std::size_t match_segments(const Geometry& model, std::span<const vec3> coarse_points,
                            coarse_skeleton& skeleton, remeshed_lines lines, std::vector<local_id> faces,
                            const refined_sizing& size, double threshold_deg, const Mesher& mesher,
                            const Executor& run, matched_faces& made, const progress& on_progress = {}) {
