@@ -65,8 +65,8 @@ using regions_mesher = std::function<meshed_regions(region_set<Geometry>&, const
                                                     region_memo&, const mesh_regions_options&)>;
 
 /// `coarse_surface` by such a function.
-template <geometry_model Geometry>
-coarse_surface_result coarse_surface_by(const Geometry& model, const any_sizing& sizing,
+template <geometry_model Geometry, sizing_field Size>
+coarse_surface_result coarse_surface_by(const Geometry& model, const Size& sizing,
                                         const coarse_surface_parameters& parameters,
                                         const regions_mesher<Geometry>& mesh_them);
 
@@ -76,8 +76,8 @@ coarse_surface_result coarse_surface_by(const Geometry& model, const any_sizing&
 /// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
 /// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed, and
 /// what `finer_at` throws.
-template <geometry_model Geometry, executor Executor, surface_mesher Mesher>
-coarse_surface_result coarse_surface(const Geometry& model, const any_sizing& sizing,
+template <geometry_model Geometry, sizing_field Size, executor Executor, surface_mesher Mesher>
+coarse_surface_result coarse_surface(const Geometry& model, const Size& sizing,
                                      const coarse_surface_parameters& parameters, const Executor& run_tasks,
                                      const Mesher& mesher) {
   const auto mesh_them = [&](region_set<Geometry>& faces, const refined_sizing& size, region_memo& made,

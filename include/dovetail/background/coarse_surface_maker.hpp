@@ -28,8 +28,9 @@ namespace detail {
 template <geometry_model Geometry>
 class coarse_surface_maker {
 public:
-  coarse_surface_maker(const Geometry& model, const any_sizing& sizing,
-                       const coarse_surface_parameters& parameters, const regions_mesher<Geometry>& mesh_them)
+  template <sizing_field Size>
+  coarse_surface_maker(const Geometry& model, const Size& sizing, const coarse_surface_parameters& parameters,
+                       const regions_mesher<Geometry>& mesh_them)
       : model_(model), parameters_(parameters), mesh_them_(mesh_them), topology_(model.topology()),
         given_([&sizing, largest = 0.25 * model.bounds().diagonal()](vec3 p) {
           return std::min(sizing(p), largest);
@@ -297,8 +298,8 @@ private:
       folds_before_; ///< of a face, when it last failed, and before
 };
 
-template <geometry_model Geometry>
-coarse_surface_result coarse_surface_by(const Geometry& model, const any_sizing& sizing,
+template <geometry_model Geometry, sizing_field Size>
+coarse_surface_result coarse_surface_by(const Geometry& model, const Size& sizing,
                                         const coarse_surface_parameters& parameters,
                                         const regions_mesher<Geometry>& mesh_them) {
   return coarse_surface_maker(model, sizing, parameters, mesh_them).run();

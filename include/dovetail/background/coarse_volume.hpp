@@ -59,9 +59,9 @@ coarse_volume_result fill_solids(const surface_mesh& surface, const geometry_top
 ///
 /// Throws `geometry_error` when the model has no solid or a solid's surface is open, `mesher_error` naming
 /// the solid that cannot be meshed.
-template <boundary_keeping_mesher<3> Mesher, improver<3> Improver, executor Executor>
+template <sizing_field Size, boundary_keeping_mesher<3> Mesher, improver<3> Improver, executor Executor>
 coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_topology& topology,
-                                   const any_sizing& size, const Mesher& mesh_it, const Improver& improve,
+                                   const Size& size, const Mesher& mesh_it, const Improver& improve,
                                    const Executor& run_tasks, const coarse_volume_options& options = {}) {
   const auto mesh_them = [&](std::size_t count, const subdomain_source& source,
                              const meshing_options& attempt) {

@@ -101,8 +101,8 @@ inline std::vector<int> least_segments(const geometry_topology& topology) {
 
 /// Spaces points on all curves; a segment turns by at most `largest_turn` (radians), unless it would get
 /// shorter than `smallest_fraction` times the given size.
-template <geometry_model Geometry>
-curve_points space_curves(const Geometry& model, const any_sizing& sizing, double largest_turn,
+template <geometry_model Geometry, sizing_field Size>
+curve_points space_curves(const Geometry& model, const Size& sizing, double largest_turn,
                           double smallest_fraction) {
   const geometry_topology& topology = model.topology();
   const std::vector<int> least = least_segments(topology);

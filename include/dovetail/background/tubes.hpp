@@ -150,8 +150,8 @@ private:
 /// Linear in the samples of faces that close to rings; throws what the model's queries and the field throw.
 /// \param model the model
 /// \param size edge lengths wanted, in the model's unit
-template <geometry_model Geometry>
-std::vector<size_ball> sizes_at_tubes(const Geometry& model, const any_sizing& size) {
+template <geometry_model Geometry, sizing_field Size>
+std::vector<size_ball> sizes_at_tubes(const Geometry& model, const Size& size) {
   constexpr double turn = std::numbers::pi / 3; // of an edge, in radians
   constexpr double narrow = 4;                  // radii of a tube that are less than the size
   constexpr double sizes_apart = 1.5;

@@ -70,8 +70,8 @@ private:
   bool projected_ = true;
 };
 
-template <geometry_model Geometry>
-fine_line space_on_curve(const Geometry& model, const skeleton_line& line, const any_sizing& size) {
+template <geometry_model Geometry, sizing_field Size>
+fine_line space_on_curve(const Geometry& model, const skeleton_line& line, const Size& size) {
   const auto curve = [&](double t) { return model.curve_frame(line.on.id, t); };
   const bool backwards = line.t[0] > line.t[1];
   auto t = remesh::line_spacing{.given_segments = line.segments, .bias = backwards ? -line.bias : line.bias}(
@@ -86,9 +86,9 @@ fine_line space_on_curve(const Geometry& model, const skeleton_line& line, const
   return fine;
 }
 
-template <geometry_model Geometry>
+template <geometry_model Geometry, sizing_field Size>
 fine_line space_on_face(const Geometry& model, const skeleton_line& line, vec3 first, vec3 last,
-                        const any_sizing& size) {
+                        const Size& size) {
   const face_line on_face(model, line, first, last);
   const auto s = remesh::line_spacing{
       .even_when_few = true, .given_segments = line.segments, .bias = line.bias}(on_face, 0.0, 1.0, size);
@@ -100,7 +100,16 @@ fine_line space_on_face(const Geometry& model, const skeleton_line& line, vec3 f
   return fine;
 }
 
-fine_line space_straight(const skeleton_line& line, vec3 first, vec3 last, const any_sizing& size);
+template <sizing_field Size>
+fine_line space_straight(const skeleton_line& line, vec3 first, vec3 last, const Size& size) {
+  const auto straight = [&](double s) { return curve_frame{first + s * (last - first), last - first}; };
+  const auto s = remesh::line_spacing{
+      .even_when_few = true, .given_segments = line.segments, .bias = line.bias}(straight, 0.0, 1.0, size);
+  fine_line fine;
+  for (std::size_t i = 1; i + 1 < s.size(); ++i)
+    fine.points.push_back(straight(s[i]).point);
+  return fine;
+}
 
 } // namespace detail
 
@@ -110,9 +119,9 @@ fine_line space_straight(const skeleton_line& line, vec3 first, vec3 last, const
 /// \param line of the coarse skeleton
 /// \param coarse_points those that the line refers to
 /// \param size edge lengths wanted, in the units of the model
-template <geometry_model Geometry>
+template <geometry_model Geometry, sizing_field Size>
 fine_line remesh_line(const Geometry& model, const skeleton_line& line, std::span<const vec3> coarse_points,
-                      const any_sizing& size) {
+                      const Size& size) {
   const vec3 first = coarse_points[line.vertices[0]];
   const vec3 last = coarse_points[line.vertices[1]];
   if (line.on.dimension == 1)

@@ -3,29 +3,12 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/remesh/line_spacing.hpp"
 #include "dovetail/skeleton/remesh_lines.hpp"
 
 #include <array>
-#include <cstddef>
 #include <span>
 
 namespace dovetail {
-
-namespace detail {
-
-DOVETAIL_INLINE fine_line space_straight(const skeleton_line& line, vec3 first, vec3 last,
-                                         const any_sizing& size) {
-  const auto straight = [&](double s) { return curve_frame{first + s * (last - first), last - first}; };
-  const auto s = remesh::line_spacing{
-      .even_when_few = true, .given_segments = line.segments, .bias = line.bias}(straight, 0.0, 1.0, size);
-  fine_line fine;
-  for (std::size_t i = 1; i + 1 < s.size(); ++i)
-    fine.points.push_back(straight(s[i]).point);
-  return fine;
-}
-
-} // namespace detail
 
 DOVETAIL_INLINE box3 place_of(const skeleton_line& line, std::span<const vec3> coarse_points) {
   const std::array ends{coarse_points[line.vertices[0]], coarse_points[line.vertices[1]]};
