@@ -184,7 +184,7 @@ public:
     std::optional<run_spool> store;
     const std::filesystem::path folder = options_.out;
     const finished_run finished(folder, identity, options_);
-    const auto begin = policies_.executor.once([&] {
+    const auto begin = once(policies_.executor, [&] {
       made.emplace(options_.out);
       return begin_in(folder, identity, finished, store);
     });
@@ -239,7 +239,7 @@ private:
 
   /// Throws `usage_error` when this rank starts from something else than the one that leads.
   void require_same(const std::string& mine) const {
-    if (const std::string theirs = policies_.executor.once([&] { return mine; }); mine != theirs)
+    if (const std::string theirs = once(policies_.executor, [&] { return mine; }); mine != theirs)
       throw usage_error("this rank starts from '" + mine + "', and rank 0 from '" + theirs + "'");
   }
 
@@ -452,7 +452,7 @@ private:
     for (const auto& format : formats_)
       writers.push_back(format.writer);
     if (!writers.empty())
-      policies_.executor.once([&] { record.forget(); }); // before any rank replaces a file
+      once(policies_.executor, [&] { record.forget(); }); // before any rank replaces a file
     const auto finished = io::finish_mesh<D>(mesh, writers, folder, policies_.executor,
                                              {.release = true, .on_progress = parameters_.on_progress});
     figures_.mesh_hash = finished.hash;
@@ -566,7 +566,7 @@ private:
   const mesh_options& options_;
   policies_of<D> policies_;
   std::optional<parallel::traced> trace_;
-  const bool leads_ = policies_.executor.leads();
+  const bool leads_ = leads(policies_.executor);
   generate_options parameters_;
   touching_faces touching_;
   suppression suppression_;

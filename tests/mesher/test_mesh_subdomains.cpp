@@ -4,6 +4,7 @@
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/in_process.hpp"

@@ -1,6 +1,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/common_arrays.hpp"
 #include "dovetail/parallel/common_memory.hpp"
@@ -43,7 +44,7 @@ void write_numbers(const common_memory& memory, std::size_t task, int first) {
 
 shared_array<int> filled(const any_executor& run, int first = 0) {
   common_memory memory(run, "numbers", tasks * numbers_per_task * sizeof(int));
-  memory.fill(tasks, [&](std::size_t i) { write_numbers(memory, i, first); }, {});
+  memory.fill(run, tasks, [&](std::size_t i) { write_numbers(memory, i, first); }, {});
   memory.close();
   return memory.array<int>(0, tasks * numbers_per_task);
 }
@@ -80,7 +81,7 @@ TEST_CASE("Ranks with one spool have it in a file there, of which the next one t
   parallel::run_ranks(3, [&](parallel::in_process& mine) {
     const any_executor run = parallel::checkpointed(parallel::ranks(mine), disk);
     common_memory memory(run, "numbers", tasks * numbers_per_task * sizeof(int));
-    memory.fill(tasks,
+    memory.fill(run, tasks,
                 [&](std::size_t i) {
                   ++times[i];
                   write_numbers(memory, i, 0);
@@ -114,7 +115,7 @@ TEST_CASE("Arrays of several types are filled by ranges") {
   constexpr std::size_t parts = 5, characters = 3; // of a part: an array ends where no double may begin
   for (const any_executor& run : {any_executor(parallel::serial{}), any_executor(parallel::processes{2})}) {
     common_arrays<char, double> arrays(run, "arrays", {parts * characters, parts});
-    arrays.fill(parts,
+    arrays.fill(run, parts,
                 [&](std::size_t i) {
                   arrays.write<0>(i * characters, std::vector<char>(characters, static_cast<char>('a' + i)));
                   arrays.write<1>(i, {0.5 * static_cast<double>(i)});
@@ -128,13 +129,14 @@ TEST_CASE("Arrays of several types are filled by ranges") {
 }
 
 TEST_CASE("A task that fails is told by its stage") {
-  common_memory memory(parallel::processes{2}, "numbers", tasks * numbers_per_task * sizeof(int));
+  const parallel::processes run{2};
+  common_memory memory(run, "numbers", tasks * numbers_per_task * sizeof(int));
   const auto crash = [&](std::size_t i) {
     if (i == 4)
       std::raise(SIGABRT);
     write_numbers(memory, i, 0);
   };
-  CHECK_THROWS_WITH_AS(memory.fill(tasks, crash, {.stage = "skeleton"}),
+  CHECK_THROWS_WITH_AS(memory.fill(run, tasks, crash, {.stage = "skeleton"}),
                        doctest::Contains("skeleton: the worker was ended by signal 6"), mesh_error);
 }
 
@@ -144,10 +146,10 @@ TEST_CASE("A file that cannot be made or written is an error on all ranks") {
   parallel::run_ranks(2, [&](parallel::in_process& mine) {
     const any_executor run = parallel::checkpointed(parallel::ranks(mine), disk);
     common_memory memory(run, "numbers", tasks * numbers_per_task * sizeof(int));
-    if (run.leads())
+    if (leads(run))
       fs::remove(place_of_file(disk));
     run.network().agree();
-    CHECK_THROWS_WITH_AS(memory.fill(tasks, [&](std::size_t i) { write_numbers(memory, i, 0); }, {}),
+    CHECK_THROWS_WITH_AS(memory.fill(run, tasks, [&](std::size_t i) { write_numbers(memory, i, 0); }, {}),
                          doctest::Contains("cannot open"), io_error);
     CHECK_THROWS_AS(memory.close(), io_error);
   });

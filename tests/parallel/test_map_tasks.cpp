@@ -1,6 +1,7 @@
 #include "dovetail/core/fields.hpp"
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/serial.hpp"
@@ -10,6 +11,8 @@
 
 #include <csignal>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace dovetail;
 
@@ -48,6 +51,38 @@ TEST_CASE("Values come back in order, whoever runs the tasks") {
     }
     CHECK(map_tasks(run, 0, [](std::size_t i) { return i; }).empty());
   }
+}
+
+namespace {
+
+struct swapping_executor {
+  std::vector<task_outcome> run(std::size_t count, const task_function& task,
+                                const run_options& options) const {
+    auto outcomes = parallel::serial{}.run(count, task, options);
+    std::swap(outcomes.front(), outcomes.back());
+    return outcomes;
+  }
+  int workers() const { return 2; }
+  bool shares_process() const { return true; }
+};
+struct losing_executor : swapping_executor {
+  std::string name() const { return "mine"; }
+  std::vector<task_outcome> run(std::size_t, const task_function&, const run_options&) const { return {}; }
+};
+
+} // namespace
+
+TEST_CASE("Of any executor, also one that nothing holds, results are checked") {
+  const auto number = [](std::size_t i) { return i; };
+  CHECK_THROWS_WITH_AS(map_tasks(swapping_executor{}, 2, number),
+                       "the executor gave for task 0 another result than it returned", usage_error);
+  CHECK_THROWS_WITH_AS(map_tasks(losing_executor{}, 2, number),
+                       "the executor 'mine' gave 0 outcomes for 2 tasks", usage_error);
+  CHECK_THROWS_WITH_AS(map_tasks(any_executor(losing_executor{}, "held"), 2, number),
+                       "the executor 'held' gave 0 outcomes for 2 tasks", usage_error);
+  CHECK(once(swapping_executor{}, [] { return 7; }) == 7);
+  CHECK((leads(swapping_executor{}) && !has_others(swapping_executor{})));
+  CHECK(results_of(swapping_executor{}) == nullptr);
 }
 
 TEST_CASE("A task that fails has no value and a reason; the others have theirs") {
@@ -113,9 +148,9 @@ TEST_CASE("All ranks have all values") {
       for (std::size_t i = 0; i < 9; ++i)
         CHECK(values[i] == std::pair(i, std::to_string(i)));
       check_thrown<sizing_error>(run);
-      CHECK(run.once([&] { return std::vector<int>{size, 1}; }) == std::vector<int>{size, 1});
+      CHECK(once(run, [&] { return std::vector<int>{size, 1}; }) == std::vector<int>{size, 1});
       int calls = 0;
-      run.once([&] { ++calls; });
+      once(run, [&] { ++calls; });
       CHECK(calls == (mine.rank() == 0 ? 1 : 0));
     });
 }

@@ -1,5 +1,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/distributed/processes.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/memo.hpp"
 #include "dovetail/parallel/remembering.hpp"

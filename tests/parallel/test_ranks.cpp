@@ -53,18 +53,18 @@ TEST_CASE("What is made once is made by rank 0 and known to all, and so is its e
   std::atomic<int> made = 0;
   parallel::run_ranks(3, [&](parallel::in_process& mine) {
     const any_executor run = parallel::ranks(mine);
-    CHECK(run.leads() == (mine.rank() == 0));
-    CHECK(contract::decoded(run.once([&] {
+    CHECK(leads(run) == (mine.rank() == 0));
+    CHECK(contract::decoded(once(run, [&] {
             ++made;
             return contract::encoded(static_cast<std::size_t>(40 + mine.rank()));
           })) == 40);
     const auto fail = [&]() -> byte_buffer { throw sizing_error("not a size"); };
-    CHECK_THROWS_WITH_AS(run.once(fail), "not a size", sizing_error);
+    CHECK_THROWS_WITH_AS(once(run, fail), "not a size", sizing_error);
   });
   CHECK(made == 1);
 
   const any_executor alone = parallel::ranks(parallel::self{});
-  CHECK(contract::decoded(alone.once([] { return contract::encoded(7); })) == 7);
+  CHECK(contract::decoded(once(alone, [] { return contract::encoded(7); })) == 7);
 }
 
 TEST_CASE("As many ranks of a machine take tasks as it has processors for, each in its turn") {

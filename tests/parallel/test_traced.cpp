@@ -1,4 +1,5 @@
 #include "dovetail/distributed/processes.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/parallel/traced.hpp"

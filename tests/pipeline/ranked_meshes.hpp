@@ -5,6 +5,7 @@
 #include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/files/vtu_writer.hpp"
 #include "dovetail/mesh/mesh_hash.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/pipeline/generate.hpp"
 #include "dovetail/sizing/uniform.hpp"
 #include "files/scratch_folder.hpp"

@@ -9,6 +9,7 @@
 #include "dovetail/mesher/any_mesher.hpp"
 #include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "models/discrete_shapes.hpp"
 #include "ranked_meshes.hpp"
@@ -38,7 +39,7 @@ struct forking_mesher : mesher::tetgen {
 TEST_CASE("a program with MPI makes the mesh and the files that one process makes") {
   std::optional<scratch_folder> own;
   const any_executor run = parallel::ranks(*world);
-  const auto folder = run.once([&] { return std::filesystem::path(own.emplace("mpi")); });
+  const auto folder = once(run, [&] { return std::filesystem::path(own.emplace("mpi")); });
   const ranked_mesh alone =
       mesh_ball(parallel::serial{}, folder / ("alone_" + std::to_string(world->rank())));
   CHECK(alone.files.size() > 4);

@@ -1,6 +1,7 @@
 #include "dovetail/distributed/ranks.hpp"
 #include "dovetail/mesher/native_surface.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"

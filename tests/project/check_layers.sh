@@ -63,6 +63,12 @@ while IFS= read -r place; do
 done < <(grep -rnE 'any_(mesher|improver|partitioner|simplification_rule|surface_mesher)\b' "${stages[@]}" \
   | grep -vE '^[a-z]+/any_[a-z_]+\.[hi]pp:|:[0-9]+: *///' || true)
 
+# Nor do they name what holds a model or an executor: the pipeline does, where it is entered.
+while IFS= read -r place; do
+  complain "$place: a stage names a type-erased model or executor"
+done < <(grep -rnE 'any_(geometry|executor)\b' "${alone[@]}" \
+  | grep -vE '^background/whole_domain\.[hi]pp:|:[0-9]+: *///' || true)
+
 while IFS=: read -r file include; do
   header=${include#*<}
   header=${header%%>*}

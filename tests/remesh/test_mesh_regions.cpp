@@ -1,6 +1,8 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/distributed/processes.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/remesh/any_surface_mesher.hpp"
@@ -27,8 +29,8 @@ struct listed_regions {
   std::vector<surface_region> regions;
   std::vector<std::vector<vec3>> surface_points; ///< per region, or empty
 
-  region_set set() const {
-    region_set made;
+  region_set<any_geometry> set() const {
+    region_set<any_geometry> made;
     made.count = regions.size();
     made.build = [listed = regions](const any_geometry&, std::size_t r) { return listed[r]; };
     made.surface_of = [](const any_geometry&, std::size_t) { return contract::plane_at_run_time(); };
@@ -68,7 +70,7 @@ const any_geometry model(plane_domain({{{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}}, {}}
 /// A set after `mesh_regions`.
 struct meshed_set {
   listed_regions list;
-  region_set set;
+  region_set<any_geometry> set;
   meshed_regions result;
   std::vector<patch_mesh> meshes;
 
@@ -263,7 +265,7 @@ TEST_CASE("a mesh whose surface is known by points is found by the outline of it
     listed_regions both = cushion();
     both.surface_points = {{{1, 0, 0}}, {{2, 0, 0}}};
     both.regions[1].boundary.points[2].z = moved;
-    region_set set = both.set();
+    region_set<any_geometry> set = both.set();
     if (outlines)
       set.outline_of = [listed = both.regions](std::size_t r) {
         patch_boundary outline = listed[r].boundary;
@@ -287,7 +289,7 @@ TEST_CASE("a mesh whose boundary has a name is found by that and its surface") {
   const auto made_with = [&](int name_of_second, double at, bool refined) {
     listed_regions both = cushion();
     both.surface_points = {{{1, 0, 0}}, {{at, 0, 0}}};
-    region_set set = both.set();
+    region_set<any_geometry> set = both.set();
     set.outline_of = [listed = both.regions](std::size_t r) {
       patch_boundary outline = listed[r].boundary;
       outline.uv.clear();

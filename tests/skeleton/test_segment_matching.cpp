@@ -1,3 +1,4 @@
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/serial.hpp"

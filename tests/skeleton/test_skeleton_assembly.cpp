@@ -1,6 +1,8 @@
 #include "dovetail/distributed/processes.hpp"
 #include "dovetail/distributed/ranks.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
@@ -40,9 +42,8 @@ fine_skeleton strip(const any_executor& run) {
       number_lines(coarse, remesh_lines(square, coarse.lines, points, size, run, made_lines), points, {});
   const surface_mesh no_surface;
   const std::vector<local_id> materials{7, 7};
-  return remesh_skeleton({square, no_surface, points, coarse, lines, size, materials}, any_surface_mesher(),
-                         run, made_patches)
-      .fine;
+  const skeleton_to_remesh of{square, no_surface, points, coarse, lines, size, materials};
+  return remesh_skeleton(of, any_surface_mesher(), run, made_patches).fine;
 }
 
 void check_same(const fine_skeleton& one, const fine_skeleton& other) {

@@ -9,9 +9,8 @@
 
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/report.hpp"
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/mesh/simplicial_mesh.hpp"
-#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
 #include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/size_balls.hpp"
@@ -61,13 +60,15 @@ struct coarse_surface_parameters {
 namespace detail {
 
 /// Meshes regions of the model at a size.
-using regions_mesher = std::function<meshed_regions(region_set&, const refined_sizing&, region_memo&,
-                                                    const mesh_regions_options&)>;
+template <geometry_model Geometry>
+using regions_mesher = std::function<meshed_regions(region_set<Geometry>&, const refined_sizing&,
+                                                    region_memo&, const mesh_regions_options&)>;
 
 /// `coarse_surface` by such a function.
-coarse_surface_result coarse_surface_by(const any_geometry& model, const any_sizing& sizing,
+template <geometry_model Geometry, sizing_field Size>
+coarse_surface_result coarse_surface_by(const Geometry& model, const Size& sizing,
                                         const coarse_surface_parameters& parameters,
-                                        const regions_mesher& mesh_them);
+                                        const regions_mesher<Geometry>& mesh_them);
 
 } // namespace detail
 
@@ -75,19 +76,17 @@ coarse_surface_result coarse_surface_by(const any_geometry& model, const any_siz
 /// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
 /// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed, and
 /// what `finer_at` throws.
-template <surface_mesher Mesher>
-coarse_surface_result coarse_surface(const any_geometry& model, const any_sizing& sizing,
-                                     const coarse_surface_parameters& parameters,
-                                     const any_executor& run_tasks, const Mesher& mesher) {
-  const auto mesh_them = [&](region_set& faces, const refined_sizing& size, region_memo& made,
+template <geometry_model Geometry, sizing_field Size, executor Executor, surface_mesher Mesher>
+coarse_surface_result coarse_surface(const Geometry& model, const Size& sizing,
+                                     const coarse_surface_parameters& parameters, const Executor& run_tasks,
+                                     const Mesher& mesher) {
+  const auto mesh_them = [&](region_set<Geometry>& faces, const refined_sizing& size, region_memo& made,
                              const mesh_regions_options& options) {
     return mesh_regions(model, faces, mesher, size, run_tasks, made, options);
   };
-  return detail::coarse_surface_by(model, sizing, parameters, mesh_them);
+  return detail::coarse_surface_by<Geometry>(model, sizing, parameters, mesh_them);
 }
 
 } // namespace dovetail::background
 
-#ifndef DOVETAIL_COMPILED
-#include "dovetail/background/coarse_surface.ipp"
-#endif
+#include "dovetail/background/coarse_surface_maker.hpp"

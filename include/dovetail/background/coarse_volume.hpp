@@ -59,14 +59,14 @@ coarse_volume_result fill_solids(const surface_mesh& surface, const geometry_top
 ///
 /// Throws `geometry_error` when the model has no solid or a solid's surface is open, `mesher_error` naming
 /// the solid that cannot be meshed.
-template <boundary_keeping_mesher<3> Mesher, improver<3> Improver>
+template <sizing_field Size, boundary_keeping_mesher<3> Mesher, improver<3> Improver, executor Executor>
 coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_topology& topology,
-                                   const any_sizing& size, const Mesher& mesh_it, const Improver& improve,
-                                   const any_executor& run_tasks, const coarse_volume_options& options = {}) {
+                                   const Size& size, const Mesher& mesh_it, const Improver& improve,
+                                   const Executor& run_tasks, const coarse_volume_options& options = {}) {
   const auto mesh_them = [&](std::size_t count, const subdomain_source& source,
                              const meshing_options& attempt) {
     // Pieces of other sizes are not to be taken for these.
-    return mesh_subdomains(count, source, mesh_it, improve, size, parallel::forgetting(run_tasks), attempt);
+    return mesh_subdomains(count, source, mesh_it, improve, size, parallel::forgetful(run_tasks), attempt);
   };
   return detail::fill_solids(surface, topology, mesh_them, options);
 }

@@ -2,7 +2,8 @@
 /// Samples the curvature of a model's faces, as balls that bound the size of its coarse surface mesh.
 #pragma once
 
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 #include "dovetail/sizing/surface_samples.hpp"
 
@@ -19,8 +20,8 @@ struct curvature_rule {
 };
 
 /// Balls where curvature asks for a smaller size than `sizing` gives, as dense as the size found there.
-inline std::vector<size_ball> curvature_balls(const any_geometry& model, const any_sizing& size,
-                                              const curvature_rule& rule) {
+template <geometry_model Geometry, sizing_field Size>
+std::vector<size_ball> curvature_balls(const Geometry& model, const Size& size, const curvature_rule& rule) {
   constexpr double sizes_apart = 1.5;
   const auto spacing = [&](const sizing::surface_sample& s) {
     const double given = size(s.point);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/remesh/line_spacing.hpp"
 #include "dovetail/sizing/concepts.hpp"
 
@@ -101,8 +101,9 @@ inline std::vector<int> least_segments(const geometry_topology& topology) {
 
 /// Spaces points on all curves; a segment turns by at most `largest_turn` (radians), unless it would get
 /// shorter than `smallest_fraction` times the given size.
-inline curve_points space_curves(const any_geometry& model, const any_sizing& sizing, double largest_turn,
-                                 double smallest_fraction) {
+template <geometry_model Geometry, sizing_field Size>
+curve_points space_curves(const Geometry& model, const Size& sizing, double largest_turn,
+                          double smallest_fraction) {
   const geometry_topology& topology = model.topology();
   const std::vector<int> least = least_segments(topology);
   constexpr std::size_t pole_parameters =

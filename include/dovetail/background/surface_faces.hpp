@@ -25,9 +25,9 @@ struct face_patch {
 namespace detail {
 
 /// Appends the points of one coedge but its last, which starts the next coedge.
-inline void append_coedge(const any_geometry& model, local_id f, int k,
-                          const geometry_topology::coedge& coedge, const curve_points& curves,
-                          face_patch& made) {
+template <geometry_model Geometry>
+void append_coedge(const Geometry& model, local_id f, int k, const geometry_topology::coedge& coedge,
+                   const curve_points& curves, face_patch& made) {
   const geometry_topology& topology = model.topology();
   const auto& t = curves.t[coedge.curve];
   const std::size_t count = t.size() - 1;
@@ -44,14 +44,16 @@ inline void append_coedge(const any_geometry& model, local_id f, int k,
 }
 
 /// True for a pole that is (nearly) a point in the parameter plane too: it adds nothing to the loop.
-inline bool is_point_in_plane(const any_geometry& model, local_id f, int k,
-                              const geometry_topology::curve& curve, vec2 extent) {
+template <geometry_model Geometry>
+bool is_point_in_plane(const Geometry& model, local_id f, int k, const geometry_topology::curve& curve,
+                       vec2 extent) {
   const vec2 d = model.curve_uv(f, k, curve.t[1]) - model.curve_uv(f, k, curve.t[0]);
   return curve.degenerate && std::abs(d.x) <= 1e-6 * extent.x && std::abs(d.y) <= 1e-6 * extent.y;
 }
 
 /// Width and height of a face in its parameter plane, from a few points of its curves.
-inline vec2 parameter_extent(const any_geometry& model, local_id f) {
+template <geometry_model Geometry>
+vec2 parameter_extent(const Geometry& model, local_id f) {
   const geometry_topology& topology = model.topology();
   vec2 lower{1e300, 1e300}, upper{-1e300, -1e300};
   int k = 0;
@@ -89,7 +91,8 @@ inline void straighten_pole(std::span<vec2> pole, vec2& last, vec2 inside, vec2 
 } // namespace detail
 
 /// Assembles the loops of a face from its curves' points.
-inline face_patch make_face_patch(const any_geometry& model, local_id f, const curve_points& curves) {
+template <geometry_model Geometry>
+face_patch make_face_patch(const Geometry& model, local_id f, const curve_points& curves) {
   const geometry_topology& topology = model.topology();
   const vec2 extent = detail::parameter_extent(model, f);
   face_patch made;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dovetail/core/vector.hpp"
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/sizing/erased.hpp"
 #include "dovetail/sizing/size_balls.hpp"
 #include "dovetail/sizing/surface_samples.hpp"
@@ -68,10 +68,11 @@ inline bool closes_to_ring(const geometry_topology& topology,
 /// A face that closes to a ring, and where on it the surface goes around a tube about as narrow as its
 /// curvature says. An edge as long as such a tube is wide leads through it, so no size that is larger fits;
 /// where a surface only bends, as at a fillet, edges may cut the bend off.
+template <geometry_model Geometry>
 class ring_face {
 public:
   /// The model must outlive the object.
-  ring_face(const any_geometry& model, local_id face) : model_(model), face_(face) { find_range(); }
+  ring_face(const Geometry& model, local_id face) : model_(model), face_(face) { find_range(); }
 
   /// Whether the surface around a sample of the face is that of a tube.
   bool is_tube_at(const sizing::surface_sample& s) const {
@@ -135,7 +136,7 @@ private:
 
   static vec3 normal_of(const surface_frame& frame) { return normalized(cross(frame.du, frame.dv)); }
 
-  const any_geometry& model_;
+  const Geometry& model_;
   local_id face_;
   vec2 lower_{1e300, 1e300}; ///< of its parameters
   vec2 upper_{-1e300, -1e300};
@@ -149,7 +150,8 @@ private:
 /// Linear in the samples of faces that close to rings; throws what the model's queries and the field throw.
 /// \param model the model
 /// \param size edge lengths wanted, in the model's unit
-inline std::vector<size_ball> sizes_at_tubes(const any_geometry& model, const any_sizing& size) {
+template <geometry_model Geometry, sizing_field Size>
+std::vector<size_ball> sizes_at_tubes(const Geometry& model, const Size& size) {
   constexpr double turn = std::numbers::pi / 3; // of an edge, in radians
   constexpr double narrow = 4;                  // radii of a tube that are less than the size
   constexpr double sizes_apart = 1.5;
@@ -161,7 +163,7 @@ inline std::vector<size_ball> sizes_at_tubes(const any_geometry& model, const an
     const auto face = static_cast<local_id>(f);
     if (!detail::closes_to_ring(model.topology(), faces_at, face))
       continue;
-    std::optional<ring_face> ring; // made where it is wanted: on most faces sizes fit everywhere
+    std::optional<ring_face<Geometry>> ring; // made where it is wanted: on most faces sizes fit everywhere
     const auto spacing = [&](const sizing::surface_sample& s) {
       constexpr double any = std::numeric_limits<double>::infinity();
       if (s.curvature * size(s.point) <= narrow)

@@ -43,11 +43,8 @@ public:
 private:
   // Here, since numbers come one by one, and most are of a byte.
   void append(const void* data, std::size_t size) {
-    if (size == 0)
-      return;
-    const std::size_t at = buffer_.size();
-    buffer_.resize(at + size);
-    std::memcpy(buffer_.data() + at, data, size);
+    const auto* bytes = static_cast<const std::byte*>(data);
+    buffer_.insert(buffer_.end(), bytes, bytes + size);
   }
   byte_buffer buffer_;
 };

@@ -162,8 +162,9 @@ private:
     const stopwatch clock;
     any_communicator network = given_.run_tasks.network();
     std::vector<local_id> part = given_.partitioner.of_whole(network, joined_.graph, ranks_);
-    rank_of_super_ = given_.run_tasks.once(
-        [&] { return connected_parts(joined_.graph, ranks_, std::move(part), given_.imbalance); });
+    rank_of_super_ = once(given_.run_tasks, [&] {
+      return connected_parts(joined_.graph, ranks_, std::move(part), given_.imbalance);
+    });
     const auto material_of = [&](std::size_t p) { return mesh_.counts[p].material; };
     const auto for_each_super = [&](const auto& visit) {
       for (std::size_t p = 0; p < old_pieces(); ++p)
@@ -224,7 +225,7 @@ private:
     moves.key = all.key();
     moves.hash = hash_;
     migrated_ = migrate_elements<D>(mesh_, sides_, moves, store_, tasks_);
-    if (given_.run_tasks.leads() || !store_->is_common())
+    if (leads(given_.run_tasks) || !store_->is_common())
       for (const content_key key : keys_)
         store_->release(key);
     append(summary_.children, migrated_.parts);

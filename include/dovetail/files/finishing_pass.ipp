@@ -87,7 +87,7 @@ public:
 
   finished_mesh run(const any_executor& run_tasks, const finishing_options& options) {
     std::vector<finished_pieces> found(ranges());
-    auto taken = run_tasks.once([&] { return take_over_all(); });
+    auto taken = once(run_tasks, [&] { return take_over_all(); });
     std::vector<std::size_t> left; // ranges, and behind them the other files
     for (std::size_t r = 0; r < ranges(); ++r)
       if (taken[r])
@@ -133,14 +133,14 @@ public:
 
   /// All files are complete before the first gets its final name.
   void finish(const std::filesystem::path& folder, const any_executor& run_tasks, report& summary) const {
-    append(summary.children, run_tasks.once([&] {
-      for (const auto& output : outputs_)
-        output.complete();
-      std::vector<report> said;
-      for (const auto& output : outputs_)
-        said.push_back(output.finish(folder));
-      return said;
-    }));
+    append(summary.children, once(run_tasks, [&] {
+             for (const auto& output : outputs_)
+               output.complete();
+             std::vector<report> said;
+             for (const auto& output : outputs_)
+               said.push_back(output.finish(folder));
+             return said;
+           }));
   }
 
 private:
@@ -169,7 +169,7 @@ private:
     const auto counted = done_by(
         run_tasks, tasks, options, [this](std::size_t task) { return counts_[task]->name; },
         [this](std::size_t task) { return counts_[task]->run(); });
-    run_tasks.once([&] {
+    once(run_tasks, [&] {
       auto next = counted.begin();
       for (const auto& output : outputs_) {
         const auto first = std::exchange(next, next + static_cast<std::ptrdiff_t>(output.counts.size()));
@@ -355,7 +355,7 @@ finished_mesh finish_mesh(const distributed_simplicial_mesh<D>& mesh,
   const stopwatch clock;
   std::optional<unfinished_folder> unfinished;
   if (!writers.empty())
-    unfinished.emplace(folder, run_tasks.leads());
+    unfinished.emplace(folder, leads(run_tasks));
   std::vector<piecewise_output<D>> outputs;
   for (const auto& writer : writers) {
     const auto of_writer = unfinished->of_writer(outputs.size());

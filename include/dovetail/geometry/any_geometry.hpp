@@ -101,11 +101,8 @@ private:
     }
     box3 bounds() const override { return held.bounds(); }
     bool thread_safe() const override { return held.thread_safe(); }
-    std::optional<surface_frame> plane_of_face([[maybe_unused]] local_id f) const override {
-      if constexpr (geometry_model_with_planes<G>)
-        return held.plane_of_face(f);
-      else
-        return {};
+    std::optional<surface_frame> plane_of_face(local_id f) const override {
+      return dovetail::plane_of_face(held, f);
     }
     /// What a model throws that is no error of ours becomes a `geometry_error` that names the entity.
     template <class F>

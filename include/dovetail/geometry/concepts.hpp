@@ -96,9 +96,11 @@ struct geometry_topology {
 ///
 /// Complexity: constant; a projection takes a few Newton steps from its seed and never searches globally.
 ///
-/// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it.
+/// Failure: a query throws `geometry_error` naming the entity when the kernel cannot evaluate it. What a
+/// model gives is taken as it is; `any_geometry` holds one and checks its topology, points and errors.
 ///
-/// Models: occt_model, discrete_model, curved_model, implicit_model, plane_domain, virtual_model.
+/// Models: occt_model, discrete_model, curved_model, implicit_model, plane_domain, virtual_model,
+/// any_geometry.
 template <class G>
 concept geometry_model = std::copy_constructible<G> &&
     requires(const G& g, local_id id, int k, vec2 uv, vec3 p, double t) {
@@ -135,5 +137,16 @@ template <class G>
 concept geometry_model_with_planes = geometry_model<G> && requires(const G& g, local_id id) {
   { g.plane_of_face(id) } -> std::same_as<std::optional<surface_frame>>;
 };
+
+/// The plane of a face, as `geometry_model_with_planes` has it; nothing of a model that knows no planes.
+/// \param model a model
+/// \param face the number of a face
+template <geometry_model G>
+std::optional<surface_frame> plane_of_face([[maybe_unused]] const G& model, [[maybe_unused]] local_id face) {
+  if constexpr (geometry_model_with_planes<G>)
+    return model.plane_of_face(face);
+  else
+    return std::nullopt;
+}
 
 } // namespace dovetail

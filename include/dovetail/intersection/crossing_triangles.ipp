@@ -11,14 +11,13 @@
 #include "dovetail/intersection/triangle_blocks.hpp"
 #include "dovetail/intersection/triangle_separation.hpp"
 #include "dovetail/mesh/triangle_intersection.hpp"
-#include "dovetail/parallel/any_executor.hpp"
-#include "dovetail/parallel/map_tasks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -188,36 +187,36 @@ private:
   std::vector<std::pair<box3, local_id>> boxes_; ///< of a cell's triangles
 };
 
-} // namespace detail
+DOVETAIL_INLINE crossing_parts parts_of_search(std::span<const vec3> points,
+                                               std::span<const simplex<2>> triangles,
+                                               const std::function<bool(local_id, local_id)>& excluded,
+                                               const crossing_parameters& parameters, int workers) {
+  constexpr std::size_t triangles_per_task = 20'000; // a request to stop is seen after each
+  const auto most_tasks = 8 * static_cast<std::size_t>(workers) + triangles.size() / triangles_per_task;
+  const auto blocks = std::make_shared<const triangle_blocks>(points, triangles);
+  const auto searcher = [=, &excluded] {
+    return crossing_search(points, triangles, excluded, parameters, *blocks);
+  };
+  auto cells = searcher().start(most_tasks);
+  const std::size_t tasks = std::min(cells.size(), most_tasks);
+  return {tasks, [=, cells = std::move(cells)](std::size_t task) {
+            auto search = searcher();
+            std::vector<triangle_pair> found;
+            for (std::size_t c = task; c < cells.size(); c += tasks)
+              search.search(search.with_triangles(cells[c]), found);
+            return found;
+          }};
+}
 
 DOVETAIL_INLINE std::vector<triangle_pair>
-crossing_triangles(std::span<const vec3> points, std::span<const simplex<2>> triangles,
-                   const std::function<bool(local_id, local_id)>& excluded, const any_executor& run,
-                   const crossing_parameters& parameters, const progress& on_progress) {
-  constexpr std::size_t triangles_per_task = 20'000; // a request to stop is seen after each
-  const auto most_tasks = 8 * static_cast<std::size_t>(run.workers()) + triangles.size() / triangles_per_task;
-  const triangle_blocks blocks(points, triangles);
-  const auto searcher = [&] {
-    return detail::crossing_search(points, triangles, excluded, parameters, blocks);
-  };
-  const auto cells = searcher().start(most_tasks);
-  const std::size_t tasks = std::min(cells.size(), most_tasks);
-  auto results = map_tasks(
-      run, tasks,
-      [&](std::size_t task) {
-        auto search = searcher();
-        std::vector<triangle_pair> found;
-        for (std::size_t c = task; c < cells.size(); c += tasks)
-          search.search(search.with_triangles(cells[c]), found);
-        return found;
-      },
-      run_options{.on_progress = on_progress, .stage = "intersection"});
-
+joined_pairs(const std::vector<std::vector<triangle_pair>>& found) {
   std::vector<triangle_pair> pairs;
-  for (const auto& found : values_of(std::move(results), "the intersection test"))
-    append(pairs, found);
+  for (const auto& some : found)
+    append(pairs, some);
   sort_unique(pairs);
   return pairs;
 }
+
+} // namespace detail
 
 } // namespace dovetail

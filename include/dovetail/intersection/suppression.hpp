@@ -57,6 +57,42 @@ known_apart known_from_patches(const fine_skeleton& skeleton, std::span<const lo
                                std::span<const kept<patch_mesh>> patches,
                                std::span<const kept<patch_mesh>> apart);
 
+namespace detail {
+
+/// The triangles that are not known to be apart, and those near them; growing.
+std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, const known_apart& known);
+/// How crossing pairs are to be removed.
+suppression_plan plan_for(const fine_skeleton& skeleton, const std::vector<triangle_pair>& pairs);
+
+/// Crossing pairs of which not both are known to be apart, nor both planar.
+template <executor Executor>
+std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleton, const std::vector<bool>& planar,
+                                             const Executor& run, const known_apart& known,
+                                             const crossing_parameters& parameters,
+                                             const progress& on_progress) {
+  const auto both = [](const std::vector<bool>& set, local_id i, local_id j) { return set[i] && set[j]; };
+  if (known.triangles.empty())
+    return crossing_triangles(
+        skeleton.points, skeleton.sides, [&](local_id i, local_id j) { return both(planar, i, j); }, run,
+        parameters, on_progress);
+  const std::vector<local_id> near = triangles_to_search(skeleton, known);
+  std::vector<simplex<2>> triangles;
+  for (const local_id t : near)
+    triangles.push_back(skeleton.sides[t]);
+  const auto of_all = [&](local_id k) { return near[k]; };
+  auto pairs = crossing_triangles(
+      skeleton.points, triangles,
+      [&](local_id i, local_id j) {
+        return both(planar, of_all(i), of_all(j)) || both(known.triangles, of_all(i), of_all(j));
+      },
+      run, parameters, on_progress);
+  for (auto& [i, j] : pairs)
+    i = of_all(i), j = of_all(j);
+  return pairs;
+}
+
+} // namespace detail
+
 /// Finds the crossings of a fine skeleton. Two triangles of planar interface faces are not tested: those
 /// faces are parts of the coarse mesh. `planar(t)` says whether triangle t belongs to one. Of two crossing
 /// interface faces the one with the smaller pair of subdomains goes. Where most is known, only what is near
@@ -69,10 +105,14 @@ known_apart known_from_patches(const fine_skeleton& skeleton, std::span<const lo
 /// \param known what is known not to cross, from an earlier round
 /// \param parameters when cells are no longer divided
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
+template <executor Executor>
 suppression_plan plan_suppression(const fine_skeleton& skeleton, const std::vector<bool>& planar,
-                                  const any_executor& run, const known_apart& known = {},
+                                  const Executor& run, const known_apart& known = {},
                                   const crossing_parameters& parameters = {},
-                                  const progress& on_progress = {});
+                                  const progress& on_progress = {}) {
+  return detail::plan_for(skeleton,
+                          detail::unknown_crossings(skeleton, planar, run, known, parameters, on_progress));
+}
 
 } // namespace dovetail
 

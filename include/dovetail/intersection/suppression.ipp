@@ -32,8 +32,8 @@ DOVETAIL_INLINE surface_crossing describe_crossing(std::span<const vec3> points,
   return crossing;
 }
 
-/// The triangles that are not known to be apart, and those near them; growing.
-inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, const known_apart& known) {
+DOVETAIL_INLINE std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton,
+                                                          const known_apart& known) {
   const box_tree others(known.around_others);
   const auto is_near_others = [&](const box3& box) { return others.any_overlaps(known.around_others, box); };
   const triangle_blocks blocks(skeleton.points, skeleton.sides);
@@ -49,31 +49,23 @@ inline std::vector<local_id> triangles_to_search(const fine_skeleton& skeleton, 
   return near;
 }
 
-/// Crossing pairs of which not both are known to be apart, nor both planar.
-inline std::vector<triangle_pair> unknown_crossings(const fine_skeleton& skeleton,
-                                                    const std::vector<bool>& planar, const any_executor& run,
-                                                    const known_apart& known,
-                                                    const crossing_parameters& parameters,
-                                                    const progress& on_progress) {
-  const auto both = [](const std::vector<bool>& set, local_id i, local_id j) { return set[i] && set[j]; };
-  if (known.triangles.empty())
-    return crossing_triangles(
-        skeleton.points, skeleton.sides, [&](local_id i, local_id j) { return both(planar, i, j); }, run,
-        parameters, on_progress);
-  const std::vector<local_id> near = triangles_to_search(skeleton, known);
-  std::vector<simplex<2>> triangles;
-  for (const local_id t : near)
-    triangles.push_back(skeleton.sides[t]);
-  const auto of_all = [&](local_id k) { return near[k]; };
-  auto pairs = crossing_triangles(
-      skeleton.points, triangles,
-      [&](local_id i, local_id j) {
-        return both(planar, of_all(i), of_all(j)) || both(known.triangles, of_all(i), of_all(j));
-      },
-      run, parameters, on_progress);
-  for (auto& [i, j] : pairs)
-    i = of_all(i), j = of_all(j);
-  return pairs;
+DOVETAIL_INLINE suppression_plan plan_for(const fine_skeleton& skeleton,
+                                          const std::vector<triangle_pair>& pairs) {
+  suppression_plan plan;
+  plan.crossings = pairs.size();
+  std::set<std::array<local_id, 2>> merges;
+  for (const auto& [first, second] : pairs) {
+    const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
+    const bool inner_i = skeleton.side_hosts[i] == no_id, inner_j = skeleton.side_hosts[j] == no_id;
+    (inner_i || inner_j ? plan.interface_crossings : plan.surface_crossings)
+        .push_back(describe_crossing(skeleton.points, skeleton.sides, skeleton.side_hosts, i, j));
+    if (inner_i && inner_j)
+      merges.insert(std::min(skeleton.subdomains[i], skeleton.subdomains[j]));
+    else if (inner_i || inner_j)
+      merges.insert(skeleton.subdomains[inner_i ? i : j]);
+  }
+  plan.merges.assign(merges.begin(), merges.end());
+  return plan;
 }
 
 } // namespace detail
@@ -97,29 +89,6 @@ DOVETAIL_INLINE known_apart known_from_patches(const fine_skeleton& skeleton,
           box.include(skeleton.points[v]);
     }
   return known;
-}
-
-DOVETAIL_INLINE suppression_plan plan_suppression(const fine_skeleton& skeleton,
-                                                  const std::vector<bool>& planar, const any_executor& run,
-                                                  const known_apart& known,
-                                                  const crossing_parameters& parameters,
-                                                  const progress& on_progress) {
-  const auto pairs = detail::unknown_crossings(skeleton, planar, run, known, parameters, on_progress);
-  suppression_plan plan;
-  plan.crossings = pairs.size();
-  std::set<std::array<local_id, 2>> merges;
-  for (const auto& [first, second] : pairs) {
-    const auto i = static_cast<std::size_t>(first), j = static_cast<std::size_t>(second);
-    const bool inner_i = skeleton.side_hosts[i] == no_id, inner_j = skeleton.side_hosts[j] == no_id;
-    (inner_i || inner_j ? plan.interface_crossings : plan.surface_crossings)
-        .push_back(detail::describe_crossing(skeleton.points, skeleton.sides, skeleton.side_hosts, i, j));
-    if (inner_i && inner_j)
-      merges.insert(std::min(skeleton.subdomains[i], skeleton.subdomains[j]));
-    else if (inner_i || inner_j)
-      merges.insert(skeleton.subdomains[inner_i ? i : j]);
-  }
-  plan.merges.assign(merges.begin(), merges.end());
-  return plan;
 }
 
 } // namespace dovetail

@@ -7,7 +7,7 @@
 #include "dovetail/core/policy.hpp"
 #include "dovetail/mesher/fallbacks.hpp"
 #include "dovetail/meshing/piece_work.hpp"
-#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/concepts.hpp"
 #include "dovetail/parallel/kept.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
 
@@ -98,8 +98,8 @@ using meshing_result = meshed_pieces<3>; ///< that of tetrahedra
 /// \param mesh_it a mesher of pieces
 /// \param improve an improver, or nothing
 /// \param run_tasks the executor that they would run in
-template <class Mesher, class Improver>
-void require_policies(const Mesher& mesh_it, const Improver& improve, const any_executor& run_tasks) {
+template <class Mesher, class Improver, executor Executor>
+void require_policies(const Mesher& mesh_it, const Improver& improve, const Executor& run_tasks) {
   const std::string why = " must not run in several threads of one process; use worker processes";
   if (!is_given(mesh_it))
     throw usage_error("no mesher was chosen: parameters<>{}.with_mesher(...)");
@@ -125,10 +125,10 @@ struct piece_attempts {
 };
 
 /// `mesh_subdomains` by these attempts.
-template <int D>
+template <int D, executor Executor>
 meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source,
                                 const piece_attempts<D>& attempts, const refined_sizing& size,
-                                const any_executor& run_tasks, const meshing_options& options);
+                                const Executor& run_tasks, const meshing_options& options);
 
 } // namespace detail
 
@@ -153,10 +153,10 @@ meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source
 /// \param size edge lengths wanted, in the units of the model
 /// \param run_tasks carries out independent tasks; the result does not depend on it
 /// \param options which ones, in which order, and progress
-template <int D = 3, boundary_keeping_mesher<D> Mesher, improver<D> Improver>
+template <int D = 3, boundary_keeping_mesher<D> Mesher, improver<D> Improver, executor Executor>
 meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<piece_source<D>>& source,
                                  const Mesher& mesh_it, const Improver& improve, const refined_sizing& size,
-                                 const any_executor& run_tasks, const meshing_options& options = {}) {
+                                 const Executor& run_tasks, const meshing_options& options = {}) {
   require_policies(mesh_it, improve, run_tasks);
   const std::vector<Mesher> meshers = with_fallbacks(mesh_it);
   // After the mesher's fallbacks the mesher as it is, without improvement: better a raw piece than none.
@@ -172,6 +172,4 @@ meshed_pieces<D> mesh_subdomains(std::size_t count, const std::type_identity_t<p
 
 } // namespace dovetail
 
-#ifndef DOVETAIL_COMPILED
-#include "dovetail/meshing/mesh_subdomains.ipp"
-#endif
+#include "dovetail/meshing/subdomain_rounds.hpp"

@@ -25,14 +25,16 @@ class common_arrays {
 public:
   /// So many items of each type, all of them zeros. Collective; throws `io_error` on all ranks when they
   /// cannot be made.
-  common_arrays(const any_executor& run, const std::string& name,
+  template <executor Executor>
+  common_arrays(const Executor& run, const std::string& name,
                 const std::array<std::size_t, sizeof...(Items)>& counts)
       : counts_(counts), begins_(begins_of(counts)), memory_(run, name, begins_.back()) {}
 
-  /// Runs `task(i)` for each i, which writes and returns nothing. An error of a task is thrown.
-  template <class Task>
-  void fill(std::size_t count, const Task& task, const run_options& options) {
-    memory_.fill(count, task, options);
+  /// Runs `task(i)` for each i, which writes and returns nothing, through the same executor. An error of a
+  /// task is thrown.
+  template <executor Executor, class Task>
+  void fill(const Executor& run, std::size_t count, const Task& task, const run_options& options) {
+    memory_.fill(run, count, task, options);
   }
 
   /// In a task: the items of array `I` from its item `first` on. No two tasks write the same. Throws

@@ -4,10 +4,13 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/shared_array.hpp"
-#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/any_communicator.hpp"
+#include "dovetail/parallel/executor_services.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
+#include "dovetail/parallel/run_results.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
@@ -29,17 +32,27 @@ namespace dovetail {
 class common_memory {
 public:
   /// Of `bytes` zeros. Collective; throws `io_error` on all ranks when the file cannot be made.
-  common_memory(const any_executor& run, const std::string& name, std::size_t bytes);
+  template <executor Executor>
+  common_memory(const Executor& run, const std::string& name, std::size_t bytes)
+      : network_(network_of(run)), bytes_(std::max<std::size_t>(bytes, 1)) {
+    if (const auto store = store_of(run, "common"); has_others(run) && store->is_common())
+      file_ = store->place_of_file(name);
+    if (file_)
+      once(run, [this] { make_file(); });
+    else
+      make_memory(has_others(run) || run.shares_process());
+  }
 
-  /// Runs `task(i)` for each i, which writes and returns nothing. An error of a task is thrown.
-  template <class Task>
-  void fill(std::size_t count, const Task& task, const run_options& options) {
-    if (run_.has_others() && !file_) {
+  /// Runs `task(i)` for each i, which writes and returns nothing, through the same executor. An error of a
+  /// task is thrown.
+  template <executor Executor, class Task>
+  void fill(const Executor& run, std::size_t count, const Task& task, const run_options& options) {
+    if (has_others(run) && !file_) {
       for (std::size_t i = 0; i < count; ++i)
         task(i);
       return;
     }
-    for (const auto& result : map_tasks(run_, count, task, options))
+    for (const auto& result : map_tasks(run, count, task, options))
       if (!result.value)
         throw mesh_error(options.stage + ": " + result.failure);
   }
@@ -65,6 +78,9 @@ public:
   }
 
 private:
+  /// Where there is no file: of this process alone, or shared with processes forked later.
+  void make_memory(bool alone);
+
   std::shared_ptr<std::byte> own_memory() const {
     auto* zeros = static_cast<std::byte*>(std::calloc(bytes_, 1));
     if (zeros == nullptr)
@@ -86,7 +102,7 @@ private:
     throw io_error(std::string(what) + " " + file_->string() + ": " + std::strerror(reason));
   }
 
-  any_executor run_;
+  any_communicator network_;
   std::size_t bytes_;
   std::optional<std::filesystem::path> file_;
   std::shared_ptr<std::byte> memory_;

@@ -3,12 +3,9 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
-#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/common_memory.hpp"
 #include "dovetail/parallel/owned_descriptor.hpp"
-#include "dovetail/parallel/run_results.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <exception>
@@ -24,17 +21,8 @@
 
 namespace dovetail {
 
-DOVETAIL_INLINE common_memory::common_memory(const any_executor& run, const std::string& name,
-                                             std::size_t bytes)
-    : run_(run), bytes_(std::max<std::size_t>(bytes, 1)) {
-  if (const auto store = store_of(run, "common"); run.has_others() && store->is_common())
-    file_ = store->place_of_file(name);
-  if (file_)
-    run_.once([this] { make_file(); });
-  else if (run.has_others() || run.shares_process())
-    memory_ = own_memory();
-  else
-    memory_ = mapped(-1, PROT_READ | PROT_WRITE);
+DOVETAIL_INLINE void common_memory::make_memory(bool alone) {
+  memory_ = alone ? own_memory() : mapped(-1, PROT_READ | PROT_WRITE);
 }
 
 DOVETAIL_INLINE void common_memory::close() {
@@ -46,7 +34,7 @@ DOVETAIL_INLINE void common_memory::close() {
   } catch (...) {
     failure = std::current_exception();
   }
-  run_.network().agree(failure); // the next file of this name may come now
+  network_.agree(failure); // the next file of this name may come now
 }
 
 DOVETAIL_INLINE std::shared_ptr<std::byte> common_memory::mapped(int descriptor, int protection) const {

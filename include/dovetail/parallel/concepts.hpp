@@ -67,7 +67,8 @@ using task_function = std::function<byte_buffer(std::size_t)>;
 ///
 /// An executor whose tasks are shared by several ranks of the same program has also `e.network()`, their
 /// any_communicator; see `ranks`. A wrapper may have `e.once(work)` in place of the network's. One that keeps
-/// what was made has `e.results()`; see `remembering`.
+/// what was made has `e.results()`; see `remembering`. Stages ask for these, of any executor, by functions
+/// (parallel/executor_services.hpp).
 ///
 /// Models: serial, threads, processes, ranks, clock_watch, remembering, forgetting,
 /// traced, any_executor.

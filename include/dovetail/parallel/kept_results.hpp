@@ -6,8 +6,8 @@
 #include "dovetail/core/content_key.hpp"
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/fields.hpp"
-#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/executor_services.hpp"
 #include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/run_results.hpp"
@@ -43,14 +43,15 @@ public:
   };
 
   /// That many, kept where `run` keeps its results, which are called `kind` there.
-  kept_results(std::size_t count, const any_executor& run, const std::string& kind)
+  template <executor Executor>
+  kept_results(std::size_t count, const Executor& run, const std::string& kind)
       : store_(store_of(run, kind)), results_(count) {}
 
   /// Makes result `number(k)` for each k below `count` in a task of `run`, unless it is there: `input(k)` is
   /// what it is a function of, `name(in)` tells that from others, `make(k, in)` makes it. Returns what
   /// `map_tasks` does: per k a receipt, with `brief(summary)` for a summary, or why there is none.
-  template <class Number, class Input, class Name, class Make, class Brief>
-  std::vector<task_result<receipt>> make(std::size_t count, const any_executor& run, const Number& number,
+  template <executor Executor, class Number, class Input, class Name, class Make, class Brief>
+  std::vector<task_result<receipt>> make(std::size_t count, const Executor& run, const Number& number,
                                          const Input& input, const Name& name, const Make& make_result,
                                          const Brief& brief, const run_options& options) {
     auto receipts = map_tasks(
@@ -69,7 +70,7 @@ public:
         there.push_back(store_->take(std::exchange(made->kept, {})));
         results_[number(k)] = kept<Result>(there.back());
       }
-    store_->exchange(run.network(), there);
+    store_->exchange(network_of(run), there);
     return receipts;
   }
 

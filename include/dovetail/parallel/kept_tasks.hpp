@@ -57,7 +57,7 @@ struct kept_tasks {
     return store.keep_in_task(key, std::move(bytes));
   }
   /// After a run: gives each rank what others have kept, where their spools are not the same.
-  void exchange(std::span<const content_key> keys) const { store.exchange(run_tasks.network(), keys); }
+  void exchange(std::span<const content_key> keys) const { store.exchange(network_of(run_tasks), keys); }
 };
 
 } // namespace dovetail

@@ -5,8 +5,8 @@
 
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/error_codec.hpp"
+#include "dovetail/parallel/executor_services.hpp"
 #include "dovetail/parallel/run_task.hpp"
 
 #include <concepts>
@@ -104,11 +104,11 @@ public:
   }
 };
 
-template <class T, class Values, class Task>
-std::vector<task_result<T>> map_tasks_by(Values values, const any_executor& run, std::size_t count,
+template <class T, class Values, executor Executor, class Task>
+std::vector<task_result<T>> map_tasks_by(Values values, const Executor& run, std::size_t count,
                                          const Task& task, const run_options& options) {
-  auto outcomes = run.run(
-      count, [&](std::size_t i) { return values.run(task, i); }, options);
+  auto outcomes = run_checked(
+      run, count, [&](std::size_t i) { return values.run(task, i); }, options);
   std::vector<task_result<T>> results(count);
   for (std::size_t i = 0; i < count; ++i) {
     task_outcome& outcome = outcomes[i];
@@ -136,16 +136,15 @@ std::vector<task_result<T>> map_tasks_by(Values values, const any_executor& run,
 /// \param count how many tasks there are
 /// \param task is called with the number of a task, perhaps in another process
 /// \param options names, limits and the order of tasks
-template <class Task>
-auto map_tasks(const any_executor& run, std::size_t count, const Task& task,
-               const run_options& options = {}) {
+template <executor Executor, class Task>
+auto map_tasks(const Executor& run, std::size_t count, const Task& task, const run_options& options = {}) {
   using returned = std::invoke_result_t<const Task&, std::size_t>;
   if constexpr (std::is_void_v<returned>) {
     return map_tasks(
         run, count, [&](std::size_t i) { return task(i), no_value{}; }, options);
   } else {
     static_assert(encodable<returned>, "what a task returns must be encodable: see core/encoding.hpp");
-    return run.shares_process() && !run.has_others()
+    return run.shares_process() && !has_others(run)
                ? detail::map_tasks_by<returned>(detail::values_in_place<returned>(count), run, count, task,
                                                 options)
                : detail::map_tasks_by<returned>(detail::values_as_bytes<returned>(count), run, count, task,

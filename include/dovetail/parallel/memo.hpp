@@ -7,8 +7,8 @@
 #include "dovetail/core/encoding.hpp"
 #include "dovetail/core/fields.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/executor_services.hpp"
 #include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/run_results.hpp"
@@ -58,7 +58,8 @@ public:
   /// In memory, as long as this.
   memo() : store_(std::make_shared<entity_store>(nullptr, "result")) {}
   /// Where an executor keeps its results, which are called `kind` there.
-  memo(const any_executor& run, const std::string& kind) : store_(store_of(run, kind)) {}
+  template <executor Executor>
+  memo(const Executor& run, const std::string& kind) : store_(store_of(run, kind)) {}
 
   /// How many were made so far, and not found.
   std::size_t made() const { return made_; }
@@ -67,8 +68,9 @@ public:
   /// a batch that fails are made again one by one; those that fail alone are returned, by growing number, and
   /// the others are kept. An `io_error`, a `sizing_error` and a `usage_error`, which no other attempt mends,
   /// are thrown.
+  template <executor Executor>
   std::vector<memo_failure> make_missing(std::span<const kept<Result>> results, std::span<const double> costs,
-                                         double batch_cost, const maker& make, const any_executor& run,
+                                         double batch_cost, const maker& make, const Executor& run,
                                          run_options options) {
     std::vector<memo_failure> failures;
     std::vector<batch> alone;
@@ -153,9 +155,9 @@ private:
   }
 
   /// Keeps the batches that can be made, and calls `fail(batch, reason)` for each other one.
-  template <class Fail>
+  template <executor Executor, class Fail>
   void make_all(const std::vector<batch>& batches, std::span<const kept<Result>> results, const maker& make,
-                const any_executor& run, run_options options, const Fail& fail) {
+                const Executor& run, run_options options, const Fail& fail) {
     options.order.resize(batches.size());
     std::iota(options.order.begin(), options.order.end(), std::size_t{0});
     stable_sort_all(options.order,
@@ -174,7 +176,7 @@ private:
       for (std::size_t i = 0; i < members.size(); ++i)
         places_[results[members[i]]] = {batches[b].key, i};
     }
-    store_->exchange(run.network(), there);
+    store_->exchange(network_of(run), there);
   }
 
   /// In a worker, which puts it into the store itself where it can.

@@ -48,4 +48,15 @@ public:
 template <executor E>
 forgetting(E) -> forgetting<E>;
 
+/// An executor as `forgetting` it; of the same type where that can hold it, so that what is called with it is
+/// not compiled a second time.
+/// \param run an executor
+template <executor E>
+auto forgetful(const E& run) {
+  if constexpr (std::constructible_from<E, forgetting<E>>)
+    return E(forgetting<E>(run));
+  else
+    return forgetting<E>(run);
+}
+
 } // namespace dovetail::parallel

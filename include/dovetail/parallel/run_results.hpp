@@ -2,8 +2,8 @@
 /// Where a run keeps what its tasks have made.
 #pragma once
 
-#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/entity_store.hpp"
+#include "dovetail/parallel/executor_services.hpp"
 #include "dovetail/parallel/kept.hpp"
 
 #include <map>
@@ -38,16 +38,18 @@ private:
 /// Where a run keeps results of a kind; a place of their own in memory where it keeps none.
 /// \param run makes them
 /// \param kind what the results are called
-inline std::shared_ptr<entity_store> store_of(const any_executor& run, const std::string& kind) {
-  const auto results = run.results();
+template <executor Executor>
+std::shared_ptr<entity_store> store_of(const Executor& run, const std::string& kind) {
+  const auto results = results_of(run);
   return results ? results->of(kind) : std::make_shared<entity_store>(nullptr, kind);
 }
 
 /// The same where a later run finds them; null where none does.
 /// \param run makes them
 /// \param kind what the results are called
-inline std::shared_ptr<entity_store> lasting_store_of(const any_executor& run, const std::string& kind) {
-  const auto results = run.results();
+template <executor Executor>
+std::shared_ptr<entity_store> lasting_store_of(const Executor& run, const std::string& kind) {
+  const auto results = results_of(run);
   return results && results->outlast_it() ? results->of(kind) : nullptr;
 }
 
@@ -56,10 +58,10 @@ inline std::shared_ptr<entity_store> lasting_store_of(const any_executor& run, c
 /// \param run made them
 /// \param kind what the results are called
 /// \param results that nobody asks for any more
-template <class Result>
-void forget(const any_executor& run, const std::string& kind, const std::set<kept<Result>>& results) {
+template <executor Executor, class Result>
+void forget(const Executor& run, const std::string& kind, const std::set<kept<Result>>& results) {
   const auto store = lasting_store_of(run, kind);
-  if (store && (run.leads() || !store->is_common()))
+  if (store && (leads(run) || !store->is_common()))
     for (const kept<Result>& result : results)
       store->release(result.key());
 }

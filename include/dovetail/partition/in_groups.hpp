@@ -46,7 +46,7 @@ struct in_groups {
     if (groups < 2)
       return finished_once(graph, parts, [&] { return checked_partition(partitioner, graph, parts); });
     const std::vector<local_id> group =
-        run.once([&] { return checked_partition(partitioner, graph, groups); });
+        once(run, [&] { return checked_partition(partitioner, graph, groups); });
     const node_groups split(graph, group, groups);
     const std::vector<int> counts =
         apportion_parts(part_weights(graph, group, groups), split.counts(), parts);
@@ -57,7 +57,7 @@ struct in_groups {
 private:
   template <class Make>
   std::vector<local_id> finished_once(const csr_graph& graph, int parts, const Make& make) const {
-    return run.once([&] {
+    return once(run, [&] {
       std::vector<local_id> part = make();
       detail::finish_partition(graph, part, parts, imbalance, 0);
       return part;

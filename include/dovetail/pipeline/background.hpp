@@ -5,7 +5,9 @@
 
 #include "dovetail/core/fields.hpp"
 #include "dovetail/core/report.hpp"
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/planning.hpp"
 #include "dovetail/sizing/size_balls.hpp"

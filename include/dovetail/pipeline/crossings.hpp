@@ -88,9 +88,9 @@ faults_of_failed_pieces(const any_geometry& model, const simplicial_background<2
   std::erase_if(of_failed.regions, [&](const auto& region) {
     return !failed.contains(region.subdomains[0]) && !failed.contains(region.subdomains[1]);
   });
-  const auto again = mesh_patches({model, mesh.surface, mesh.surface.mesh.points, of_failed, made.lines, size,
-                                   made.material_of_subdomain},
-                                  given.mesh_surface, given.run_tasks, known.patches);
+  const skeleton_to_remesh of{model,      mesh.surface, mesh.surface.mesh.points,  of_failed,
+                              made.lines, size,         made.material_of_subdomain};
+  const auto again = mesh_patches(of, given.mesh_surface, given.run_tasks, known.patches);
   suppression_plan plan = detail::plan_for_failed_patches(of_failed, again.failures);
   append(plan.surface_crossings, plan.interface_crossings);
   return std::move(plan.surface_crossings);

@@ -100,7 +100,7 @@ std::vector<local_id> partition_of(const graph_to_partition& whole, const Parame
     by_groups.on_progress = on_progress;
     return partition_components(whole, by_groups, on_progress);
   }
-  return given.run_tasks.once([&] { return partition_components(whole, given.partition_it, on_progress); });
+  return once(given.run_tasks, [&] { return partition_components(whole, given.partition_it, on_progress); });
 }
 
 template <int D, bound_parameters<D> Parameters>
@@ -132,12 +132,13 @@ divided_background<D> divide(const simplicial_background<D>& coarse, const any_s
   const auto estimates =
       detail::integrate_in_tasks<D>(coarse.elements(), size, given.run_tasks, given.options.on_progress);
   given.options.on_progress("simplification", 0, 0);
-  auto simplified = given.run_tasks.once(
-      [&] { return detail::simplify_here<D>(coarse, sides, size, estimates, subdomains, given); });
+  auto simplified = once(given.run_tasks, [&] {
+    return detail::simplify_here<D>(coarse, sides, size, estimates, subdomains, given);
+  });
   const double simplification_seconds = clock.seconds();
   given.options.on_progress("partition", 0, 0);
   auto part_of_super = detail::partition_of(simplified.whole, given);
-  auto result = given.run_tasks.once([&] {
+  auto result = once(given.run_tasks, [&] {
     return detail::divide_into<D>(coarse, sides, size, std::move(simplified), std::move(part_of_super),
                                   given);
   });

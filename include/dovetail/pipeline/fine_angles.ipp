@@ -58,7 +58,7 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<3>& skelet
                                     },
                                     run_options{.on_progress = on_progress, .stage = "intersection"}),
                                 "the measuring of interface angles");
-  return run.once([&] {
+  return once(run, [&] {
     auto angles = joined_shares(shares);
     find_forced(angles, fine.sides, cad_of(fine), size, wanted);
     return angles;
@@ -77,7 +77,7 @@ DOVETAIL_INLINE interface_angles fine_interface_angles(const realized<2>& skelet
     const auto& points = skeleton.lines.points;
     return points[along[1]] - points[along[0]];
   };
-  auto angles = run.once([&] {
+  auto angles = once(run, [&] {
     return measure_interface_angles<2>({mesh.surface.mesh, divided.sides, divided.side_states,
                                         skeleton.subdomain_of_element, leaves, mesh_state::valid},
                                        wanted);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/report.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/run_results.hpp"
 #include "dovetail/pipeline/background.hpp"
 
@@ -24,11 +25,11 @@ public:
   std::optional<report> find(const background_result<D>& background) const {
     if (!kept_)
       return {};
-    return run_tasks_.once([&] { return kept_->find_value<report>(key_of(background)); });
+    return once(run_tasks_, [&] { return kept_->find_value<report>(key_of(background)); });
   }
   /// Stores the account of a decomposition that is given up.
   void keep(const background_result<D>& background, const report& account) {
-    if (kept_ && run_tasks_.leads())
+    if (kept_ && leads(run_tasks_))
       kept_->keep_value(key_of(background), account);
   }
 

@@ -3,6 +3,7 @@
 /// field is a function and stays with the caller; what the surface asks of it are data.
 #pragma once
 
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/run_results.hpp"
 #include "dovetail/pipeline/background.hpp"
@@ -28,8 +29,8 @@ std::optional<background_result<D>> find_background(const any_geometry& model, c
   const auto store = lasting_store_of(run, "background");
   if (!store)
     return std::nullopt;
-  auto found = run.once(
-      [&] { return store->find_value<background_result<D>>(detail::background_key(D, model, size)); });
+  auto found = once(
+      run, [&] { return store->find_value<background_result<D>>(detail::background_key(D, model, size)); });
   if (!found)
     return std::nullopt;
   found->size = allowed_size<D>(enlarged(size, found->plan), found->bounds);
@@ -44,7 +45,7 @@ std::optional<background_result<D>> find_background(const any_geometry& model, c
 template <int D>
 void keep_background(const any_geometry& model, const erased_sizing& size,
                      const background_result<D>& background, const any_executor& run) {
-  if (const auto store = lasting_store_of(run, "background"); store && run.leads())
+  if (const auto store = lasting_store_of(run, "background"); store && leads(run))
     store->keep_value(detail::background_key(D, model, size), background);
 }
 

@@ -2,6 +2,7 @@
 /// From the fine boundaries of a decomposition to its meshed pieces, for D = 2 and D = 3.
 #pragma once
 
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/intersection/offending_facets.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/subdomain_surface.hpp"

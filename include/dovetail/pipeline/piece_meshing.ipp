@@ -7,6 +7,7 @@
 #include "dovetail/meshing/subdomain_surface.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 #include "dovetail/pipeline/realize.hpp"
+#include "dovetail/remesh/surfaces.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 #include "dovetail/skeleton/patches.hpp"
 

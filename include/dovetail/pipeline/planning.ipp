@@ -264,7 +264,7 @@ template <int D, bound_parameters<D> Parameters>
 mesh_plan plan_of_usable(const any_geometry& model, const erased_sizing& size, const Parameters& given,
                          planned what) {
   const auto first = first_surface<D>(model, size, given);
-  return given.run_tasks.once([&] {
+  return once(given.run_tasks, [&] {
     mesh_plan plan =
         plan_of_prediction<D>(model, size, first, predict_on_surface<D>(model, size, first, given), given);
     if constexpr (D == 3)
@@ -291,20 +291,20 @@ mesh_plan plan_background(const any_geometry& model, const erased_sizing& size, 
 template <int D, bound_parameters<D> Parameters>
 std::function<mesh_plan(double factor)> plan_multiples(const any_geometry& model, const erased_sizing& size,
                                                        const Parameters& given) {
-  const auto once = detail::usable_size<D>(model, size, given);
-  const auto surface_once = detail::first_surface<D>(model, once.size, given);
+  const auto usable = detail::usable_size<D>(model, size, given);
+  const auto surface_once = detail::first_surface<D>(model, usable.size, given);
   element_prediction predicted_once;
-  std::tie(predicted_once.elements, predicted_once.relative_error) = given.run_tasks.once([&] {
-    const auto predicted = detail::predict_on_surface<D>(model, once.size, surface_once, given);
+  std::tie(predicted_once.elements, predicted_once.relative_error) = once(given.run_tasks, [&] {
+    const auto predicted = detail::predict_on_surface<D>(model, usable.size, surface_once, given);
     return std::pair(predicted.elements, predicted.relative_error);
   });
   return [=](double factor) {
     const bool is_once = factor == 1;
-    const auto multiple = is_once ? once : detail::usable_size<D>(model, scaled(size, factor), given);
+    const auto multiple = is_once ? usable : detail::usable_size<D>(model, scaled(size, factor), given);
     const auto surface = is_once ? surface_once : detail::first_surface<D>(model, multiple.size, given);
-    return given.run_tasks.once([&] {
+    return once(given.run_tasks, [&] {
       element_prediction predicted = predicted_once;
-      if (D == 3 && !once.finer_at_tubes && !multiple.finer_at_tubes)
+      if (D == 3 && !usable.finer_at_tubes && !multiple.finer_at_tubes)
         predicted.elements /= factor * factor * factor; // the cells of the integral are those of any multiple
       else if (!is_once)
         predicted = detail::predict_on_surface<D>(model, multiple.size, surface, given);

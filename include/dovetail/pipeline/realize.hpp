@@ -3,7 +3,9 @@
 /// D = 3 the patches between them (paper, sections 3.4 and 3.5).
 #pragma once
 
+#include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
+#include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/skeleton/fine_lines.hpp"

@@ -79,7 +79,7 @@ realized<2> realize_boundaries(const any_geometry& model, const simplicial_backg
 /// The patches of a skeleton, where wanted on lines with numbers of segments that suit each other. Better
 /// small angles than patches that fail: their lines are as they were then.
 template <bound_parameters<3> Parameters>
-skeleton_patches patches_on_matched_lines(const skeleton_to_remesh& of, realized<3>& result,
+skeleton_patches patches_on_matched_lines(const skeleton_to_remesh<any_geometry>& of, realized<3>& result,
                                           skeleton_memo& made, const Parameters& given) {
   const progress& on_progress = given.options.on_progress;
   const auto fill = [&] {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/geometry/coplanar.hpp"
 
 #include <algorithm>
@@ -19,10 +19,11 @@
 namespace dovetail::detail {
 
 /// The flat faces at points, which have numbers.
+template <geometry_model Geometry>
 class flat_neighbours {
 public:
   /// Only of these points it will be asked.
-  flat_neighbours(const any_geometry& model, std::vector<local_id> points)
+  flat_neighbours(const Geometry& model, std::vector<local_id> points)
       : model_(model), points_(std::move(points)) {
     sort_unique(points_);
   }
@@ -54,11 +55,11 @@ private:
   const std::optional<surface_frame>& plane_of(local_id face) {
     const auto [found, is_new] = planes_.try_emplace(face);
     if (is_new)
-      found->second = model_.plane_of_face(face);
+      found->second = plane_of_face(model_, face);
     return found->second;
   }
 
-  const any_geometry& model_;
+  const Geometry& model_;
   std::vector<local_id> points_; ///< sorted
   std::map<local_id, std::vector<local_id>> faces_at_;
   std::map<local_id, std::optional<surface_frame>> planes_;

@@ -29,9 +29,8 @@ struct line_spacing {
   /// Parameters t[0] = first < ... < t[n] = last, first < last. Neighbours are about one target length apart:
   /// n = max(minimum_segments, round(integral of |C'| / h)), see `even_when_few`. `curve(t)` gives a
   /// `curve_frame`. Complexity: about three evaluations of the curve and the field per segment.
-  template <class Curve>
-  std::vector<double> operator()(const Curve& curve, double first, double last,
-                                 const any_sizing& sizing) const {
+  template <class Curve, sizing_field Size>
+  std::vector<double> operator()(const Curve& curve, double first, double last, const Size& sizing) const {
     std::vector<leaf> leaves;
     const auto sample = [&](double t) {
       const curve_frame f = curve(t);

@@ -12,8 +12,8 @@
 #include "dovetail/core/policy.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/geometry/any_geometry.hpp"
-#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/parallel/concepts.hpp"
 #include "dovetail/parallel/kept.hpp"
 #include "dovetail/parallel/memo.hpp"
 #include "dovetail/remesh/concepts.hpp"
@@ -113,12 +113,13 @@ inline std::string folds_of(const patch_mesh& made) {
 
 /// Regions that share boundary points, by the same labels. Their boundaries together are as large as their
 /// meshes, so each is built when it is needed and not held.
+template <geometry_model Geometry>
 struct region_set {
   std::size_t count = 0; ///< how many regions there are
   /// A region without `surface` and `forbids`, from a model of the worker's own; pure.
-  std::function<surface_region(const any_geometry&, std::size_t)> build;
+  std::function<surface_region(const Geometry&, std::size_t)> build;
   /// The surface of a region, from a model of the worker's own.
-  std::function<any_surface(const any_geometry&, std::size_t)> surface_of;
+  std::function<any_surface(const Geometry&, std::size_t)> surface_of;
   /// For regions on no face: the points that their surface, and with it the parameters of their boundary, is
   /// a function of beside the boundary's points; none for regions on a face. Empty where all are.
   std::function<std::vector<vec3>(std::size_t)> surface_points = {};
@@ -140,11 +141,11 @@ struct region_set {
     return boundary_name ? boundary_name(r) : std::nullopt;
   }
   /// A region with its boundary and the edges it must not have.
-  surface_region region(const any_geometry& own, std::size_t r) const {
+  surface_region region(const Geometry& own, std::size_t r) const {
     return with_forbidden_edges(r, build(own, r));
   }
   /// The same, perhaps without its parameters, and its points where the boundary has a name.
-  surface_region outline(const any_geometry& own, std::size_t r) const {
+  surface_region outline(const Geometry& own, std::size_t r) const {
     if (!outline_of || points_of_surface(r).empty())
       return region(own, r);
     surface_region built;
@@ -224,8 +225,9 @@ namespace detail {
 using region_mesher = std::function<patch_mesh(const any_surface&, const surface_region&, const any_sizing&)>;
 
 /// `mesh_regions` by such a function.
-meshed_regions make_regions(const any_geometry& model, region_set& set, const region_mesher& mesh_it,
-                            const refined_sizing& size, const any_executor& run, region_memo& made,
+template <geometry_model Geometry, executor Executor>
+meshed_regions make_regions(const Geometry& model, region_set<Geometry>& set, const region_mesher& mesh_it,
+                            const refined_sizing& size, const Executor& run, region_memo& made,
                             const mesh_regions_options& options);
 
 } // namespace detail
@@ -244,9 +246,9 @@ meshed_regions make_regions(const any_geometry& model, region_set& set, const re
 /// \param run carries out independent tasks; the result does not depend on it
 /// \param made meshes of earlier calls; grows
 /// \param options attempts and progress
-template <surface_mesher Mesher>
-meshed_regions mesh_regions(const any_geometry& model, region_set& set, const Mesher& mesher,
-                            const refined_sizing& size, const any_executor& run, region_memo& made,
+template <geometry_model Geometry, surface_mesher Mesher, executor Executor>
+meshed_regions mesh_regions(const Geometry& model, region_set<Geometry>& set, const Mesher& mesher,
+                            const refined_sizing& size, const Executor& run, region_memo& made,
                             const mesh_regions_options& options) {
   if (runs_in_threads(run) && !may_run_in_threads(mesher))
     throw usage_error(
@@ -297,6 +299,8 @@ void append_region(const surface_region& region, const patch_mesh& made, std::ve
 }
 
 } // namespace dovetail
+
+#include "dovetail/remesh/region_making.hpp"
 
 #ifndef DOVETAIL_COMPILED
 #include "dovetail/remesh/mesh_regions.ipp"

@@ -2,7 +2,7 @@
 /// Surfaces that are meshed: a plane, and any surface, among them a face of a geometry model.
 #pragma once
 
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/remesh/patch.hpp"
 
 #include <concepts>
@@ -60,13 +60,20 @@ struct any_surface {
 };
 
 /// A face of a model in the model's own parameters; the model must outlive it.
-any_surface surface_of_face(const any_geometry& model, local_id face);
+template <geometry_model Geometry>
+any_surface surface_of_face(const Geometry& model, local_id face) {
+  return {[&model, face](vec2 uv) { return model.face_frame(face, uv); },
+          [&model, face](vec3 p, vec2 seed) { return model.project_to_face(face, p, seed); }};
+}
 
 /// A face of a model, which it keeps alive; in orthonormal parameters where it is a plane.
-any_surface surface_of_face(const std::shared_ptr<const any_geometry>& model, local_id face);
+template <geometry_model Geometry>
+any_surface surface_of_face(const std::shared_ptr<const Geometry>& model, local_id face) {
+  any_surface surface{[model, face](vec2 uv) { return model->face_frame(face, uv); },
+                      [model, face](vec3 p, vec2 seed) { return model->project_to_face(face, p, seed); }};
+  if (const auto plane = plane_of_face(*model, face))
+    surface.plane = remesh::plane_surface{plane->point, plane->du, plane->dv};
+  return surface;
+}
 
 } // namespace dovetail
-
-#ifndef DOVETAIL_COMPILED
-#include "dovetail/remesh/surfaces.ipp"
-#endif

@@ -20,7 +20,7 @@ class refined_sizing {
 public:
   template <class H>
     requires(!std::same_as<H, refined_sizing> && sizing_field<H>)
-  refined_sizing(H plain) : plain_(std::move(plain)) {} // NOLINT: converts
+  refined_sizing(H plain) : plain_(keep_bounds(std::move(plain))) {} // NOLINT: converts
 
   /// Whether there are balls: else all of it is the same everywhere, and no box need be known.
   bool is_refined() const { return !balls_.empty(); }

@@ -2,7 +2,8 @@
 /// The fine skeleton of D = 2: the edges of the remeshed lines, with the subsurfaces beside them.
 #pragma once
 
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
+#include "dovetail/geometry/coplanar.hpp"
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
@@ -10,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,8 +36,16 @@ simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& surface, const side
 class chord_rule {
 public:
   /// \param model has the planes of flat faces; it is not needed later
-  chord_rule(const any_geometry& model, const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine,
-             const numbered_lines& lines, const surface_mesh& surface);
+  template <geometry_model Geometry>
+  chord_rule(const Geometry& model, const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine,
+             const numbered_lines& lines, const surface_mesh& surface)
+      : chord_rule(skeleton, fine, lines, surface) {
+    std::vector<std::optional<surface_frame>> planes;
+    planes.reserve(skeleton.regions.size());
+    for (const skeleton_region& region : skeleton.regions)
+      planes.push_back(plane_of_face(model, region.cad_face));
+    plane_of_ = plane_numbers(planes, model.bounds().diagonal(), coplanar_tolerance);
+  }
 
   /// Whether a region must not have the chord between two points.
   bool forbids(local_id region, local_id a, local_id b) const;
@@ -45,6 +55,10 @@ public:
   std::vector<std::int64_t> facts(std::span<const local_id> regions, std::span<const local_id> points) const;
 
 private:
+  /// Without the planes.
+  chord_rule(const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine, const numbered_lines& lines,
+             const surface_mesh& surface);
+
   /// Whether a region may have chords that another one must not have then.
   bool comes_before(local_id region, local_id other) const;
 

@@ -4,7 +4,6 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
-#include "dovetail/geometry/coplanar.hpp"
 #include "dovetail/skeleton/line_skeleton.hpp"
 
 #include <algorithm>
@@ -63,15 +62,9 @@ DOVETAIL_INLINE simplicial_skeleton<2> skeleton_of_lines(const surface_mesh& sur
   return skeleton;
 }
 
-DOVETAIL_INLINE chord_rule::chord_rule(const any_geometry& model, const coarse_skeleton& skeleton,
-                                       const simplicial_skeleton<2>& fine, const numbered_lines& lines,
-                                       const surface_mesh& surface)
+DOVETAIL_INLINE chord_rule::chord_rule(const coarse_skeleton& skeleton, const simplicial_skeleton<2>& fine,
+                                       const numbered_lines& lines, const surface_mesh& surface)
     : edges_(fine.sides.begin(), fine.sides.end()), regions_at_(fine.points.size()) {
-  std::vector<std::optional<surface_frame>> planes;
-  planes.reserve(skeleton.regions.size());
-  for (const skeleton_region& region : skeleton.regions)
-    planes.push_back(model.plane_of_face(region.cad_face));
-  plane_of_ = plane_numbers(planes, model.bounds().diagonal(), coplanar_tolerance);
   for (simplex<1>& edge : edges_)
     edge = sorted_vertices(edge);
   sort_unique(edges_);

@@ -5,7 +5,7 @@
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/core/vector.hpp"
-#include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/geometry/concepts.hpp"
 #include "dovetail/graph/disjoint_sets.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
@@ -71,14 +71,16 @@ public:
     skeleton_line line;
     fine_line fine;
   };
-  changed_line with_segments(const any_geometry& model, local_id l, line_segments wanted) const {
+  template <geometry_model Geometry>
+  changed_line with_segments(const Geometry& model, local_id l, line_segments wanted) const {
     skeleton_line changed = line(l);
     changed.segments = wanted.count;
     changed.bias = wanted.bias;
     return {changed, remesh_line(model, changed, coarse_points_, size_near(l))};
   }
   /// Gives the lines of a face the segments that were chosen for it.
-  void change(const any_geometry& model, local_id face, const face_segments& chosen) {
+  template <geometry_model Geometry>
+  void change(const Geometry& model, local_id face, const face_segments& chosen) {
     const auto& its = sides(face);
     for (std::size_t i = 0; i < 3; ++i)
       if (chosen[i].count != 0)

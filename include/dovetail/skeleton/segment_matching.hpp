@@ -30,12 +30,12 @@ namespace dovetail {
 namespace detail {
 
 /// Mends faces as if one by one, in their order; those side by side that are apart.
-template <surface_mesher Mesher>
+template <geometry_model Geometry, surface_mesher Mesher, executor Executor>
 class segment_matcher {
 public:
-  segment_matcher(const any_geometry& model, std::span<const vec3> coarse_points, coarse_skeleton& coarse,
+  segment_matcher(const Geometry& model, std::span<const vec3> coarse_points, coarse_skeleton& coarse,
                   remeshed_lines lines, const refined_sizing& size, double threshold, const Mesher& mesher,
-                  const any_executor& run, matched_faces& made, const progress& on_progress)
+                  const Executor& run, matched_faces& made, const progress& on_progress)
       : model_(model), coarse_points_(coarse_points), coarse_(coarse), lines_(std::move(lines.lines)),
         size_(size), threshold_(threshold), mesher_(mesher), run_(run), made_(made),
         on_progress_(on_progress), lines_of_face_(lines_of_faces(coarse)),
@@ -124,10 +124,10 @@ private:
     });
   }
 
-  std::vector<face_segments> segments_for(const faces_in_turn& faces, const any_geometry& model,
+  std::vector<face_segments> segments_for(const faces_in_turn& faces, const Geometry& model,
                                           matched_skeleton skeleton) const {
     std::vector<face_segments> chosen;
-    std::optional<segment_trials<Mesher>> trials;
+    std::optional<segment_trials<Geometry, Mesher>> trials;
     for (const local_id f : faces) {
       if (!trials)
         trials.emplace(model, skeleton, mesher_);
@@ -153,14 +153,14 @@ private:
       }
   }
 
-  const any_geometry& model_;
+  const Geometry& model_;
   std::span<const vec3> coarse_points_;
   coarse_skeleton& coarse_;
   std::vector<fine_line> lines_;
   const refined_sizing& size_;
   double threshold_;
   const Mesher& mesher_;
-  const any_executor& run_;
+  const Executor& run_;
   matched_faces& made_;
   const progress& on_progress_;
   std::vector<std::array<local_id, 3>> lines_of_face_;
@@ -180,11 +180,11 @@ private:
 /// the number of lines with such segments. Costs up to some hundred meshes of each face with a smaller angle,
 /// fewer where its corners tell that they cannot help. Throws `mesher_error` when a trial cannot be
 /// evaluated.
-template <surface_mesher Mesher>
-std::size_t match_segments(const any_geometry& model, std::span<const vec3> coarse_points,
+template <geometry_model Geometry, surface_mesher Mesher, executor Executor>
+std::size_t match_segments(const Geometry& model, std::span<const vec3> coarse_points,
                            coarse_skeleton& skeleton, remeshed_lines lines, std::vector<local_id> faces,
                            const refined_sizing& size, double threshold_deg, const Mesher& mesher,
-                           const any_executor& run, matched_faces& made, const progress& on_progress = {}) {
+                           const Executor& run, matched_faces& made, const progress& on_progress = {}) {
   if (faces.empty())
     return 0;
   detail::segment_matcher(model, coarse_points, skeleton, std::move(lines), size, threshold_deg, mesher, run,

@@ -23,10 +23,10 @@
 namespace dovetail::detail {
 
 /// Trials during which the lines stay as they are.
-template <surface_mesher Mesher>
+template <geometry_model Geometry, surface_mesher Mesher>
 class segment_trials {
 public:
-  segment_trials(const any_geometry& model, const matched_skeleton& skeleton, const Mesher& mesher)
+  segment_trials(const Geometry& model, const matched_skeleton& skeleton, const Mesher& mesher)
       : model_(model), skeleton_(skeleton), mesher_(mesher) {}
 
   /// What becomes of the lines of a face: the change that lifts its angle the most, less what the faces
@@ -259,7 +259,7 @@ private:
     return least;
   }
 
-  const any_geometry& model_;
+  const Geometry& model_;
   const matched_skeleton& skeleton_;
   const Mesher& mesher_;
   std::map<std::pair<local_id, line_segments>, std::vector<vec3>> tried_;

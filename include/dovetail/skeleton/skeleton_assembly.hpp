@@ -58,12 +58,13 @@ public:
   const std::vector<std::size_t>& first_triangles() const { return first_triangle_; }
 
   /// Points and sides; linear. On each rank the same.
-  fine_skeleton run(const any_executor& run, const progress& on_progress) const {
+  template <executor Executor>
+  fine_skeleton run(const Executor& run, const progress& on_progress) const {
     const std::size_t points = first_point_.back(), sides = first_triangle_.back();
     common_arrays<vec3, host, simplex<2>, std::array<local_id, 2>, local_id> assembled(
         run, "assembled", {points, points, sides, sides, sides});
     const std::vector<std::size_t> begins = tasks();
-    assembled.fill(begins.size() - 1,
+    assembled.fill(run, begins.size() - 1,
                    [&](std::size_t task) {
                      const std::size_t begin = begins[task], end = begins[task + 1];
                      const std::size_t point = task == 0 ? 0 : first_point_[begin],

@@ -64,7 +64,7 @@ public:
     const content_key key = key_of_result();
     const auto store = lasting_store_of(run_, "middles");
     const auto find_kept = [&] { return store->find_value<kept_middles>(key); };
-    if (auto found = store ? run_.once(find_kept) : std::nullopt) {
+    if (auto found = store ? once(run_, find_kept) : std::nullopt) {
       take(*std::move(found), summary);
       return nodes_;
     }
@@ -73,7 +73,7 @@ public:
     check();
     const middle_counts counts = counted();
     summary.set(counts);
-    if (store && run_.leads())
+    if (store && leads(run_))
       store->keep_value(key, kept_middles{nodes_->points, nodes_->inner, counts});
     return nodes_;
   }

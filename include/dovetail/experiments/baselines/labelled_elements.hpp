@@ -157,7 +157,7 @@ labelled_mesh divide_by_labels(const distributed_mesh& mesh, const std::vector<l
     all(static_cast<std::int64_t>(key.value));
   moves.key = all.key();
   result.mesh = migrate_elements<3>(mesh, sides, moves, store, tasks).mesh;
-  if (run_tasks.leads() || !store->is_common())
+  if (leads(run_tasks) || !store->is_common())
     for (const content_key key : keys)
       store->release(key);
   return result;

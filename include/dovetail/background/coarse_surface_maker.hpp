@@ -1,12 +1,11 @@
 /// @file
-/// What `coarse_surface.hpp` declares.
+/// The rounds of `coarse_surface`, whoever meshes a face.
 #pragma once
 
 #include "dovetail/background/coarse_surface.hpp"
 #include "dovetail/background/surface_curvature.hpp"
 #include "dovetail/background/surface_faces.hpp"
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/linkage.hpp"
 #include "dovetail/core/report.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/geometry/error_of_faces.hpp"
@@ -26,10 +25,12 @@ namespace dovetail::background {
 namespace detail {
 
 /// State of the rounds of `coarse_surface`.
+template <geometry_model Geometry>
 class coarse_surface_maker {
 public:
-  coarse_surface_maker(const any_geometry& model, const any_sizing& sizing,
-                       const coarse_surface_parameters& parameters, const regions_mesher& mesh_them)
+  template <sizing_field Size>
+  coarse_surface_maker(const Geometry& model, const Size& sizing, const coarse_surface_parameters& parameters,
+                       const regions_mesher<Geometry>& mesh_them)
       : model_(model), parameters_(parameters), mesh_them_(mesh_them), topology_(model.topology()),
         given_([&sizing, largest = 0.25 * model.bounds().diagonal()](vec3 p) {
           return std::min(sizing(p), largest);
@@ -37,7 +38,7 @@ public:
         bounds_(curvature_balls(model, given_, {parameters.turn, parameters.smallest_fraction})),
         curvature_(bounds_, parameters.growth), size_([this](vec3 p) { return curvature_(p, given_(p)); }) {
     faces_.count = topology_.faces.size();
-    faces_.surface_of = [](const any_geometry& own, std::size_t f) {
+    faces_.surface_of = [](const Geometry& own, std::size_t f) {
       return surface_of_face(own, static_cast<local_id>(f));
     };
   }
@@ -277,9 +278,9 @@ private:
         .size_balls = bounds_.size()});
   }
 
-  const any_geometry& model_;
+  const Geometry& model_;
   const coarse_surface_parameters& parameters_;
-  const regions_mesher& mesh_them_;
+  const regions_mesher<Geometry>& mesh_them_;
   const geometry_topology& topology_;
   any_sizing given_;              ///< the caller's field, never above a quarter of the model's diagonal
   std::vector<size_ball> bounds_; ///< of the curvature, and the places refined
@@ -287,9 +288,8 @@ private:
   refined_sizing size_; ///< the given one, bounded by curvature, and the places refined
   curve_points curves_;
   std::vector<surface_region> regions_; ///< the faces
-  region_set faces_{.count = 0,
-                    .build = [this](const any_geometry&, std::size_t f) { return regions_[f]; },
-                    .surface_of = {}};
+  region_set<Geometry> faces_{
+      .count = 0, .build = [this](const Geometry&, std::size_t f) { return regions_[f]; }, .surface_of = {}};
   region_memo made_; ///< faces out of reach of what is refined stay
   meshed_regions meshed_;
   std::vector<patch_mesh> meshes_; ///< of the faces
@@ -298,9 +298,10 @@ private:
       folds_before_; ///< of a face, when it last failed, and before
 };
 
-DOVETAIL_INLINE coarse_surface_result coarse_surface_by(const any_geometry& model, const any_sizing& sizing,
-                                                        const coarse_surface_parameters& parameters,
-                                                        const regions_mesher& mesh_them) {
+template <geometry_model Geometry, sizing_field Size>
+coarse_surface_result coarse_surface_by(const Geometry& model, const Size& sizing,
+                                        const coarse_surface_parameters& parameters,
+                                        const regions_mesher<Geometry>& mesh_them) {
   return coarse_surface_maker(model, sizing, parameters, mesh_them).run();
 }
 

@@ -1,14 +1,13 @@
 /// @file
-/// What `mesh_subdomains.hpp` declares.
+/// The rounds of attempts at subdomains: what `mesh_subdomains` does, whoever makes a piece.
 #pragma once
 
 #include "dovetail/core/error.hpp"
-#include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/meshing/brief_summary.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 #include "dovetail/meshing/piece_work.hpp"
-#include "dovetail/parallel/any_executor.hpp"
+#include "dovetail/parallel/executor_services.hpp"
 #include "dovetail/parallel/kept_results.hpp"
 #include "dovetail/remesh/surface_deviation.hpp"
 
@@ -31,11 +30,11 @@ template <int D>
 using kept_pieces = kept_results<finished_piece<D>, piece_note>;
 
 /// The rounds of `mesh_subdomains`.
-template <int D>
+template <int D, executor Executor>
 class subdomain_rounds {
 public:
   subdomain_rounds(std::size_t count, const piece_source<D>& source, const piece_attempts<D>& attempts,
-                   const refined_sizing& size, const any_executor& run_tasks, const meshing_options& options)
+                   const refined_sizing& size, const Executor& run_tasks, const meshing_options& options)
       : source_(source), attempts_(attempts), size_(size), run_tasks_(run_tasks), options_(options),
         skeleton_points_(options.skeleton_points
                              ? options.skeleton_points
@@ -142,7 +141,7 @@ private:
     result_.failures = std::move(pending_);
     if constexpr (D == 3)
       for (piece_failure& failure : result_.failures)
-        failure = run_tasks_.once([&] {
+        failure = once(run_tasks_, [&] {
           piece_failure recorded = failure;
           if (options_.on_failure)
             options_.on_failure(recorded, source_(failure.subdomain).boundary.boundary);
@@ -185,7 +184,7 @@ private:
   const piece_source<D>& source_;
   const piece_attempts<D>& attempts_;
   const refined_sizing& size_;
-  const any_executor& run_tasks_;
+  const Executor& run_tasks_;
   const meshing_options& options_;
   std::function<std::vector<local_id>(local_id)> skeleton_points_;
   std::shared_ptr<kept_pieces<D>> pieces_;
@@ -194,10 +193,10 @@ private:
   meshed_pieces<D> result_;
 };
 
-template <int D>
+template <int D, executor Executor>
 meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source,
                                 const piece_attempts<D>& attempts, const refined_sizing& size,
-                                const any_executor& run_tasks, const meshing_options& options) {
+                                const Executor& run_tasks, const meshing_options& options) {
   if (!options.predicted_cost.empty() && options.predicted_cost.size() != count)
     throw usage_error("meshing_options::predicted_cost must have one value per subdomain");
   std::vector<local_id> wanted = options.wanted;
@@ -205,18 +204,9 @@ meshed_pieces<D> mesh_in_rounds(std::size_t count, const piece_source<D>& source
   if (!wanted.empty() && (wanted.front() < 0 || static_cast<std::size_t>(wanted.back()) >= count ||
                           std::adjacent_find(wanted.begin(), wanted.end()) != wanted.end()))
     throw usage_error("meshing_options::wanted must list subdomains that there are, each once");
-  return subdomain_rounds<D>(count, source, attempts, size, run_tasks, options).run();
+  return subdomain_rounds<D, Executor>(count, source, attempts, size, run_tasks, options).run();
 }
 
 } // namespace detail
-
-#ifdef DOVETAIL_COMPILED
-template meshed_pieces<2> detail::mesh_in_rounds(std::size_t, const piece_source<2>&,
-                                                 const piece_attempts<2>&, const refined_sizing&,
-                                                 const any_executor&, const meshing_options&);
-template meshed_pieces<3> detail::mesh_in_rounds(std::size_t, const piece_source<3>&,
-                                                 const piece_attempts<3>&, const refined_sizing&,
-                                                 const any_executor&, const meshing_options&);
-#endif
 
 } // namespace dovetail
