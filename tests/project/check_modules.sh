@@ -2,7 +2,7 @@
 # The headers of a module compile where there is nothing but they, those of the modules that it may include, and a compiler. Left
 # out are those that need another library (cmake/modules.txt). Whatever file the compiler reads is one of these, or one that
 # the headers of the standard library and of POSIX read by themselves.
-# Definitions (x.ipp) are compiled in the core, storage, surfaces, the partitioners, the improver, the mesher, the sizing fields and what is finished. In
+# Definitions (x.ipp) are compiled in the core, erased, rules, storage, surfaces, the partitioners, the improver, the mesher, the sizing fields and what is finished. In
 # the other modules all that they include is found and looked at likewise, but to compile them is left to the tests of headers.
 #   check_modules.sh <source directory> <work directory> <module> <compiler>
 set -euo pipefail
@@ -51,7 +51,7 @@ if found=$(strangers all.d | grep .); then
   exit 1
 fi
 declarations=(-DDOVETAIL_COMPILED -DDOVETAIL_COMPILED_OCCT -DDOVETAIL_COMPILED_CGAL)
-[[ " core storage surfaces partitioners improver mesher sizing finished " != *" $wanted "* ]] || declarations=()
+[[ " core erased rules storage surfaces partitioners improver mesher sizing finished " != *" $wanted "* ]] || declarations=()
 "$compiler" "${flags[@]}" "${declarations[@]}" -fsyntax-only all.cpp
 echo "$wanted: $count headers, $(files_of all.d | grep -c "^$work/include/") files of the library are read"
 
