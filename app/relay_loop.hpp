@@ -56,7 +56,8 @@ public:
   }
 
 private:
-  /// Between two looks. A message waits so long: where one was there the next follows soon, as an answer does.
+  /// Between two looks, which is how long a message may wait: short after a message, as an answer often
+  /// follows (2 ms), longer for 55 ms more, and longest when none comes.
   std::chrono::microseconds pause() const {
     constexpr std::chrono::microseconds first{50}, next{500}, last{4000};
     return looks_ < 40 ? first : looks_ < 150 ? next : last;

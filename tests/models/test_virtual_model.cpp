@@ -269,6 +269,29 @@ TEST_CASE("what is left of a strip whose end was cut is blunt there, however sho
   }
 }
 
+TEST_CASE("a curve whose vertex goes along it goes on, and turns no more than it may") {
+  for (const double length : {0.5, 0.7, 0.9, 5.0}) {
+    CAPTURE(length);
+    // An undercut step between two sides that are so long: one of them goes back over it to the other.
+    const double end = 4.95 + length;
+    const outline drawn{{5 - length, 0}, {5, 0}, {4.95, -0.1}, {end, -0.1}, {end, 10}, {5 - length, 10}};
+    const virtual_model made = without_details(prism(drawn, drawn, {5.4, 0.5}, {0, 10}).model());
+    REQUIRE(kinds_of(made) == std::vector{kind::narrow_face});
+    for (std::size_t c = 0; c < made.topology().curves.size(); ++c) {
+      const auto id = static_cast<local_id>(c);
+      const auto& t = made.topology().curves[c].t;
+      const vec3 along = made.curve_point(id, t[1]) - made.curve_point(id, t[0]);
+      constexpr int steps = 64;
+      for (int i = 0; i < steps; ++i) {
+        const auto at = [&](int k) { return made.curve_point(id, t[0] + (t[1] - t[0]) * k / steps); };
+        const vec3 step = at(i + 1) - at(i);
+        CHECK(dot(step, along) > 0.25 * norm_squared(along) / steps);
+        CHECK(dot(step, along) > std::cos(35 / degrees_per_radian) * norm(step) * norm(along));
+      }
+    }
+  }
+}
+
 TEST_CASE("the end that is cut leaves no short edge, nor a face that is all but gone") {
   const auto split_neighbour = [](std::size_t side, std::size_t layer) {
     return side == 1 ? static_cast<local_id>(layer) : no_id;

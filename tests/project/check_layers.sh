@@ -1,7 +1,7 @@
 #!/bin/bash
 # A header includes its own module and those that cmake/modules.txt lets it include. In a module of several layers, the core
-# and the mesher, a file includes its own folder, lower layers, and of the folders of its own layer what says what a role is: its concepts,
-# and the models of them behind one type (any_*). In the core these are data (1) and tools (2), which may build on each other
+# and the mesher, a file includes its own folder, lower layers, and of the folders of its own layer what says what a role is: its
+# concepts. In the core these are data (1) and tools (2), which may build on each other
 # within their layer, and stages (3), which do not include each other: the pipeline, a module of its own, joins them.
 # Other libraries are included only where the list says so: all else compiles with nothing installed but a compiler.
 set -euo pipefail
@@ -39,7 +39,7 @@ while IFS=: read -r file include; do
     complain "$file includes $target, which needs $component, and the list does not say that it does"
   fi
   [[ $module == "$own_module" && ${file%%/*} != "${target%%/*}" ]] || continue
-  [[ $target == */concepts.hpp || $target == */any_*.hpp ]] && continue
+  [[ $target == */concepts.hpp ]] && continue
   ((layer > own_layer)) && complain "$file includes $target of a higher layer"
   ((layer == own_layer && layer > 1 && layer == layers_of[$module])) && complain "$file includes $target of another stage"
 done < <(xargs grep -H '#include "' <<<"$headers")
@@ -54,7 +54,7 @@ done < <(grep -rnE 'byte_(buffer|reader|writer)' "${stages[@]}" || true)
 alone=(background simplification decomposition skeleton remesh intersection meshing)
 while IFS= read -r place; do
   complain "$place: a stage names a store, a key, a rank or a folder for results"
-done < <(grep -rnE 'core/content_key|parallel/(any_communicator|common_memory|entity_store|run_results|spool)|(content_key|key_maker|entity_store|run_results|spool|store_of|lasting_store_of)\b|(\.|->)(network|leads|results)\(' \
+done < <(grep -rnE 'core/content_key|parallel/(any_communicator|common_memory|entity_store|run_results|spool)|(content_key|key_maker|entity_store|run_results|spool|store_of|lasting_store_of)\b|(\.|->)(network|leads|results)\(|\b(network_of|results_of|has_others|leads)\(' \
   "${alone[@]}" | grep -vE ':[0-9]+: *///' || true)
 
 # Its policies are template parameters: what hides one behind one type is a model of its role like others.

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -28,7 +29,7 @@ public:
   /// degrees.
   boundary_at_edges(const mesh_piece& piece, const fine_skeleton& skeleton, std::span<const local_id> listed,
                     std::span<const simplex<3>> elements, double small_deg)
-      : small_deg_(small_deg), in_wall_(vertices_in_walls(piece, skeleton, elements)) {
+      : small_deg_(small_deg), states_(states_of_vertices(piece, skeleton, elements)) {
     const piece_numbers numbers(piece.skeleton_points);
     for (const local_id s : listed) {
       const auto side = static_cast<std::size_t>(s);
@@ -57,19 +58,17 @@ public:
     find_corners(piece, turns);
   }
 
-  /// Whether the element is between surfaces: each of its vertices is on the model's surface, or joined to
-  /// two at most that are not.
+  /// Whether the element is between surfaces: each of its vertices is on the model's surface, or inside and
+  /// joined to two at most that are not.
   bool is_in_wall(const simplex<3>& element) const {
-    return std::all_of(element.begin(), element.end(), [&](local_id v) { return in_wall_[v]; });
+    return all_are(element, [](state s) { return s == state::on_surface || s == state::inside_wall; });
   }
 
-  /// Whether the element, which is in a wall, has vertices at two faces of the model that meet or touch,
-  /// somewhere on this boundary, in a small angle: what is between them is thin for that.
+  /// Whether the element has vertices at two faces of the model that meet or touch, somewhere on this
+  /// boundary, in a small angle: what is between them is thin for that. Vertices of interfaces may be between
+  /// them too, if joined to two at most of this piece that are not on the surface.
   bool is_in_wedge(const simplex<3>& element) const {
-    return std::any_of(wedges_.begin(), wedges_.end(), [&](const auto& pair) {
-      const auto [first, second] = pair;
-      return touches(element, first) && touches(element, second);
-    });
+    return all_are(element, [](state s) { return s != state::elsewhere; }) && is_at_wedge(element);
   }
 
   /// Whether the boundary triangle with these vertices is between two curves of its face that meet, somewhere
@@ -112,6 +111,13 @@ public:
 
 private:
   static constexpr double rounding_deg = 1e-6;
+  /// Where a vertex is.
+  enum class state : std::uint8_t {
+    elsewhere,
+    on_surface,       ///< of the model
+    inside_wall,      ///< joined to few that are not on it
+    interface_in_wall ///< the same, of an interface
+  };
   struct triangle {
     simplex<2> vertices; ///< sorted, of the piece
     double angle_deg;
@@ -134,6 +140,17 @@ private:
     std::array<local_id, 2> beyond; ///< the faces on the other sides of the curves
     auto operator<=>(const corner&) const = default;
   };
+
+  template <class Holds>
+  bool all_are(const simplex<3>& element, const Holds& holds) const {
+    return std::all_of(element.begin(), element.end(), [&](local_id v) { return holds(states_[v]); });
+  }
+  bool is_at_wedge(const simplex<3>& element) const {
+    return std::any_of(wedges_.begin(), wedges_.end(), [&](const auto& pair) {
+      const auto [first, second] = pair;
+      return touches(element, first) && touches(element, second);
+    });
+  }
 
   std::span<const flap> flaps_at(const simplex<1>& edge) const {
     const auto [first, last] =
@@ -166,35 +183,35 @@ private:
     return degrees_per_radian * std::atan2(norm(cross(a, b)), dot(a, b));
   }
 
-  /// The vertices on the model's surface, and those others of the elements that are joined to few of the
-  /// piece that are not on it.
-  static std::vector<bool> vertices_in_walls(const mesh_piece& piece, const fine_skeleton& skeleton,
-                                             std::span<const simplex<3>> elements) {
+  /// Of the vertices on the model's surface, and of those others of the elements that are joined to few of
+  /// the piece that are not on it.
+  static std::vector<state> states_of_vertices(const mesh_piece& piece, const fine_skeleton& skeleton,
+                                               std::span<const simplex<3>> elements) {
     constexpr std::ptrdiff_t most_beside = 2; // a layer between two surfaces has more, a chain has not
     const auto shared = static_cast<local_id>(piece.skeleton_points.size());
-    std::vector<bool> on_surface(piece.mesh.points.size(), false);
+    std::vector<state> states(piece.mesh.points.size(), state::elsewhere);
     for (local_id v = 0; v < shared; ++v)
-      on_surface[v] = skeleton.point_hosts[piece.skeleton_points[v]].dimension < 3;
+      if (skeleton.point_hosts[piece.skeleton_points[v]].dimension < 3)
+        states[v] = state::on_surface;
     std::vector<bool> asked(piece.mesh.points.size(), false);
     for (const simplex<3>& element : elements)
       for (const local_id v : element)
-        asked[v] = !on_surface[v];
+        asked[v] = states[v] != state::on_surface;
     std::vector<std::pair<local_id, local_id>> beside; // a vertex, another one that is not on the surface
     for (const simplex<3>& element : piece.mesh.elements)
       for (const local_id v : element)
         for (const local_id other : element)
-          if (asked[v] && other != v && !on_surface[other])
+          if (asked[v] && other != v && states[other] != state::on_surface)
             beside.push_back({v, other});
     sort_unique(beside);
-    std::vector<bool> in_wall = on_surface;
-    for (std::size_t v = 0; v < asked.size(); ++v)
-      if (asked[v])
-        in_wall[v] = true;
     for (auto first = beside.begin(), last = first; first != beside.end(); first = last) {
       last = std::find_if(first, beside.end(), [&](const auto& pair) { return pair.first != first->first; });
-      in_wall[first->first] = last - first <= most_beside;
+      asked[first->first] = last - first <= most_beside;
     }
-    return in_wall;
+    for (local_id v = 0; v < static_cast<local_id>(asked.size()); ++v)
+      if (asked[v])
+        states[v] = v < shared ? state::interface_in_wall : state::inside_wall;
+    return states;
   }
 
   /// A vertex between the surfaces of a wall is at the faces of those that it is joined to.
@@ -207,7 +224,7 @@ private:
     };
     for (const simplex<3>& element : piece.mesh.elements)
       for (const local_id between : element) {
-        if (!in_wall_[between] || !faces_at(between).empty())
+        if (states_[between] == state::elsewhere || !faces_at(between).empty())
           continue;
         for (const local_id v : element)
           for (const auto& at : faces_at(v))
@@ -300,7 +317,7 @@ private:
   }
 
   double small_deg_;
-  std::vector<bool> in_wall_; ///< of each vertex of the elements
+  std::vector<state> states_; ///< of each vertex of the elements
   std::vector<triangle> triangles_;
   std::vector<flap> flaps_;
   std::vector<std::pair<local_id, local_id>> faces_of_vertices_; ///< vertex, face

@@ -71,8 +71,10 @@ DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const boundary_at_e
     if (boundary.smallest_angle(side) < limit_deg)
       return boundary.is_in_corner(side) ? poor_cause::model_angle : poor_cause::boundary_triangle;
   }
+  if (boundary.is_in_wedge(element))
+    return poor_cause::model_angle;
   if (boundary.is_in_wall(element))
-    return boundary.is_in_wedge(element) ? poor_cause::model_angle : poor_cause::thin_wall;
+    return poor_cause::thin_wall;
   return has_no_vertex_inside(piece, element) ? poor_cause::thin_piece : poor_cause::inside;
 }
 

@@ -115,7 +115,8 @@ void require_policies(const Mesher& mesh_it, const Improver& improve, const Exec
 namespace detail {
 
 /// The attempts at a piece: so many, each of which makes one from its input and the sizes in it. `so_far` is
-/// what is known of the attempts before. Whoever calls it knows no policy, and is compiled once.
+/// what is known of the attempts before. Whoever calls it knows no policy, and is not compiled again for
+/// each.
 template <int D>
 struct piece_attempts {
   std::size_t count = 0;

@@ -45,10 +45,11 @@ struct virtual_model::data {
   std::vector<suppressed_detail> suppressed;
 
   void bend_curves(const any_geometry& model, const virtual_topology::editable_topology& edited) {
-    // In displacements of its end: a curve turns there by no more than about 20 degrees, or more where it
-    // would bend beyond its middle: what is left of a strip ends bluntly, and is no wedge all along.
+    // In displacements of its end. Where that is moved across, a curve turns by about 20 degrees at most; one
+    // that would bend beyond its middle by more, up to 34, so that what is left of a strip ends bluntly and
+    // is no wedge all along.
     constexpr double reach = 6;
-    constexpr double least_reach = 2;
+    constexpr double least_reach = 3; // a shorter curve bends evenly
     bent.resize(topology.curves.size());
     for (std::size_t c = 0; c < topology.curves.size(); ++c) {
       auto& curve = topology.curves[c];

@@ -221,7 +221,8 @@ struct mesh_regions_options {
 
 namespace detail {
 
-/// Meshes a region on its surface at a size. Whoever calls it knows no mesher, and is compiled once.
+/// Meshes a region on its surface at a size. Whoever calls it knows no mesher, and is not
+/// compiled again for each.
 using region_mesher = std::function<patch_mesh(const any_surface&, const surface_region&, const any_sizing&)>;
 
 /// `mesh_regions` by such a function.

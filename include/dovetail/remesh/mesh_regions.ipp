@@ -6,18 +6,11 @@
 #include "dovetail/core/hash.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/mesh/chain_sum.hpp"
-#include "dovetail/mesh/element_angles.hpp"
-#include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/chords.hpp"
-#include "dovetail/remesh/flat_neighbours.hpp"
 #include "dovetail/remesh/mesh_regions.hpp"
-#include "dovetail/remesh/surface_deviation.hpp"
 #include "dovetail/remesh/unwanted_chords.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <map>
-#include <set>
 
 namespace dovetail {
 

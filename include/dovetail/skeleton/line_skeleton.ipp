@@ -11,9 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace dovetail {

@@ -246,8 +246,8 @@ std::vector<local_id> faces_with_small_angles(const skeleton_patches& patches,
 namespace detail {
 
 /// A skeleton that was put together, with what is reported of it.
-remeshed_skeleton with_counts(const patches_to_join& of, const skeleton_assembly& joined, fine_skeleton fine,
-                              skeleton_patches patches);
+remeshed_skeleton with_counts(const patches_to_join& of, const skeleton_assembly& assembly,
+                              fine_skeleton fine, skeleton_patches&& patches);
 
 } // namespace detail
 
@@ -264,15 +264,15 @@ remeshed_skeleton join_patches(const skeleton_to_remesh<Geometry>& of, skeleton_
                                const Executor& run, const region_memo& made,
                                const progress& on_progress = {}) {
   const detail::skeleton_parts parts(of);
-  const detail::patches_to_join joined{of.skeleton,
-                                       of.lines,
-                                       patches.meshes,
-                                       made,
-                                       [&](std::size_t p) { return parts.is_reversed(p); },
-                                       of.material_of_subdomain};
-  const detail::skeleton_assembly assembly(joined);
+  const detail::patches_to_join to_join{of.skeleton,
+                                        of.lines,
+                                        patches.meshes,
+                                        made,
+                                        [&](std::size_t p) { return parts.is_reversed(p); },
+                                        of.material_of_subdomain};
+  const detail::skeleton_assembly assembly(to_join);
   fine_skeleton fine = assembly.run(run, on_progress);
-  return detail::with_counts(joined, assembly, std::move(fine), std::move(patches));
+  return detail::with_counts(to_join, assembly, std::move(fine), std::move(patches));
 }
 
 /// `mesh_patches` and `join_patches`.

@@ -25,12 +25,12 @@ DOVETAIL_INLINE std::vector<local_id> faces_with_small_angles(const skeleton_pat
 }
 
 DOVETAIL_INLINE remeshed_skeleton detail::with_counts(const patches_to_join& of,
-                                                      const skeleton_assembly& joined, fine_skeleton fine,
-                                                      skeleton_patches patches) {
+                                                      const skeleton_assembly& assembly, fine_skeleton fine,
+                                                      skeleton_patches&& patches) {
   remeshed_skeleton result;
   result.fine = std::move(fine);
   result.patches.line_points = static_cast<local_id>(of.lines.points.size());
-  for (const std::size_t first : joined.first_triangles())
+  for (const std::size_t first : assembly.first_triangles())
     result.patches.first_triangle.push_back(static_cast<local_id>(first));
   report deviation;
   for (std::size_t p = 0; p < of.coarse.regions.size(); ++p)
