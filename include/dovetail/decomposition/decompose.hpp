@@ -14,7 +14,7 @@
 ///     const auto angles =
 ///         measure_interface_angles<3>({volume, sides, simplified.volume.side_states,
 ///                                      pieces.part_of_element},
-///                                     wanted_angles_of<3>(simplifier::paper{}));
+///                                     wanted_angles_of<3>(simplifier::paper{})); // angles_of_rule.hpp
 #pragma once
 
 #include "dovetail/core/compressed_rows.hpp"
