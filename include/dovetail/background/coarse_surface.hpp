@@ -76,6 +76,11 @@ coarse_surface_result coarse_surface_by(const Geometry& model, const Size& sizin
 /// are oriented as `surface_mesh` says. Complexity: about linear in the number of triangles; faces run
 /// through the executor. Throws `geometry_error` or `mesher_error` naming the face that cannot be meshed, and
 /// what `finer_at` throws.
+/// \param model whose faces are meshed
+/// \param sizing edge lengths, in the model's unit
+/// \param parameters growth of sizes, curvature, and what looks at the surface
+/// \param run_tasks meshes curves and faces, a task each; the result does not depend on it
+/// \param mesher meshes a face between its curves
 template <geometry_model Geometry, sizing_field Size, executor Executor, surface_mesher Mesher>
 coarse_surface_result coarse_surface(const Geometry& model, const Size& sizing,
                                      const coarse_surface_parameters& parameters, const Executor& run_tasks,

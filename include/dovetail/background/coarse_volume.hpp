@@ -55,10 +55,17 @@ coarse_volume_result fill_solids(const surface_mesh& surface, const geometry_top
 /// Fills all solids of a model with a coarse mesh that has the triangles of `surface` as sides, and improves
 /// it. Solids are meshed together; if neither the mesher nor a fallback can do that, one by one. Every
 /// attempt runs as a task of the executor, so with `processes` a crash of the mesher is survived. Voids need
-/// no marking: what no face has as its solid stays empty.
+/// no marking: what no face has as its solid stays empty. Complexity: the mesher's and the improver's.
 ///
 /// Throws `geometry_error` when the model has no solid or a solid's surface is open, `mesher_error` naming
 /// the solid that cannot be meshed.
+/// \param surface that of `coarse_surface`
+/// \param topology the model's: which solids are beside its faces
+/// \param size edge lengths, in the model's unit
+/// \param mesh_it keeps the triangles of the surface
+/// \param improve improves what it makes, boundary kept
+/// \param run_tasks runs each attempt as a task
+/// \param options what is told of failures and of progress
 template <sizing_field Size, boundary_keeping_mesher<3> Mesher, improver<3> Improver, executor Executor>
 coarse_volume_result coarse_volume(const surface_mesh& surface, const geometry_topology& topology,
                                    const Size& size, const Mesher& mesh_it, const Improver& improve,

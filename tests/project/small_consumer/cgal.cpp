@@ -1,5 +1,6 @@
 // The compiled mesher of CGAL is called: without triangles there is nothing to mesh.
 #include "dovetail/adapters/cgal_mesh_3.hpp"
+#include "dovetail/core/error.hpp"
 
 #include <cstdio>
 
