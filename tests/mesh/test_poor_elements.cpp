@@ -91,6 +91,25 @@ simplicial_mesh<3> blade() {
   return thinned([](vec3 p) { return 0.05 * p.x; });
 }
 
+/// Each element divided by a vertex in its middle; the first of its parts takes its place.
+simplicial_mesh<3> with_middles(simplicial_mesh<3> mesh) {
+  for (std::size_t e = 0, n = mesh.elements.size(); e < n; ++e) {
+    const simplex<3> whole = mesh.elements[e];
+    const auto middle = static_cast<local_id>(mesh.points.size());
+    const auto p = corners(std::span<const vec3>(mesh.points), whole);
+    mesh.points.push_back(0.25 * (p[0] + p[1] + p[2] + p[3]));
+    for (std::size_t k = 0; k < 4; ++k) {
+      simplex<3> part = whole;
+      part[k] = middle;
+      if (k == 0)
+        mesh.elements[e] = part;
+      else
+        mesh.elements.push_back(part);
+    }
+  }
+  return mesh;
+}
+
 /// With boundary triangles on the faces that `face_of` says.
 template <class Face>
 poor_elements by_faces(const simplicial_mesh<3>& mesh, const Face& face_of) {
@@ -178,22 +197,7 @@ TEST_CASE("where two faces run into each other elements between them are in an a
   CHECK(of_one.bad_by(poor_cause::thin_wall) > 0);
 
   // A vertex between them, and none beside it, changes nothing.
-  auto split = mesh;
-  for (std::size_t e = 0, n = mesh.elements.size(); e < n; ++e) {
-    const simplex<3> whole = mesh.elements[e];
-    const auto middle = static_cast<local_id>(split.points.size());
-    vec3& inside = split.points.emplace_back();
-    for (const local_id v : whole)
-      inside += 0.25 * mesh.points[v];
-    for (std::size_t k = 0; k < 4; ++k) {
-      simplex<3> part = whole;
-      part[k] = middle;
-      if (k == 0)
-        split.elements[e] = part;
-      else
-        split.elements.push_back(part);
-    }
-  }
+  const auto split = with_middles(mesh);
   const auto split_of_one = by_faces(split, [](const auto&) { return 0; });
   const auto split_of_two = by_faces(split, [&](const auto& vertices) { return below(vertices) ? 1 : 0; });
   CHECK(split_of_one.bad_by(poor_cause::thin_wall) > of_one.bad_by(poor_cause::thin_wall));
@@ -227,25 +231,11 @@ TEST_CASE("where two faces touch at a point elements between them are in an angl
 }
 
 TEST_CASE("the vertices that an interface has in a wedge are in it, and those in a wall are in no wall") {
-  auto mesh = blade();
-  const auto first_between = static_cast<local_id>(mesh.points.size());
-  const std::size_t whole_elements = mesh.elements.size();
-  for (std::size_t e = 0; e < whole_elements; ++e) { // a vertex in the middle of each
-    const simplex<3> whole = mesh.elements[e];
-    const auto middle = static_cast<local_id>(mesh.points.size());
-    const auto p = corners(std::span<const vec3>(mesh.points), whole);
-    mesh.points.push_back(0.25 * (p[0] + p[1] + p[2] + p[3]));
-    for (std::size_t k = 0; k < 4; ++k) {
-      simplex<3> part = whole;
-      part[k] = middle;
-      if (k == 0)
-        mesh.elements[e] = part;
-      else
-        mesh.elements.push_back(part);
-    }
-  }
+  const auto whole = blade();
+  const auto first_between = static_cast<local_id>(whole.points.size());
+  const auto mesh = with_middles(whole);
   std::vector<local_id> parts(mesh.elements.size(), 1); // a quarter of each element is in the other piece
-  std::fill(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(whole_elements), local_id{0});
+  std::fill(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(whole.elements.size()), local_id{0});
   const auto by_face_below = [&](local_id face) {
     return all_poor(mesh, parts, [&](const auto& vertices) {
       const bool between =
