@@ -154,6 +154,21 @@ TEST_CASE("a chamfer far narrower than the size becomes the edge that it was mad
   CHECK(made.summary().get("largest") == width);
 }
 
+TEST_CASE("a strip stays where the faces at both of its sides would fold onto a hole of theirs") {
+  const TopoDS_Shape strip =
+      chamfered(BRepPrimAPI_MakeBox(10, 10, 10).Shape(), 0.1, [](vec3 p) { return p.x > 9 && p.y > 9; });
+  // Each hole begins beside the strip, but not at it, and is far too long to be a detail.
+  const auto drilled = [](const TopoDS_Shape& shape, gp_Pnt from, const gp_Dir& inwards) {
+    const gp_Ax2 axis(from, inwards);
+    return BRepAlgoAPI_Cut(shape, BRepPrimAPI_MakeCylinder(axis, 0.14, 1).Shape()).Shape();
+  };
+  const TopoDS_Shape one_hole = drilled(strip, gp_Pnt(10, 9.75, 5), gp_Dir(-1, 0, 0));
+  const TopoDS_Shape two_holes = drilled(one_hole, gp_Pnt(9.75, 10, 7.5), gp_Dir(0, -1, 0));
+  CHECK(kinds_of(without_details(model_of(strip))) == std::vector{kind::narrow_face});
+  CHECK(kinds_of(without_details(model_of(one_hole))) == std::vector{kind::narrow_face});
+  CHECK(kinds_of(without_details(model_of(two_holes))).empty());
+}
+
 TEST_CASE("of many strips in a row some stay: no face is moved by more than one may be wide") {
   outline row{{0, 0}, {10, 0}};
   for (int i = 0; i <= 6; ++i)

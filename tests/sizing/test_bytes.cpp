@@ -4,6 +4,7 @@
 #include "dovetail/sizing/graded.hpp"
 #include "dovetail/sizing/point_sizes.hpp"
 #include "dovetail/sizing/refined_sizing.hpp"
+#include "dovetail/sizing/uniform.hpp"
 #include "support/jittered_meshes.hpp"
 
 #include <doctest/doctest.h>
@@ -127,6 +128,12 @@ TEST_CASE("A field of sizes at points is sent as these") {
   }
   check_sent(point_sizes(std::move(points), 0.3, 0.5),
              [](byte_reader& from) { return point_sizes::decode(from); });
+}
+
+TEST_CASE("a field that is refined keeps the bounds of the plain one") {
+  const box3 box{{0, 0, 0}, {1, 1, 1}};
+  CHECK(smallest_size_in(refined_sizing(uniform_size(2)).near(box), box) == 2);
+  CHECK(smallest_size_in(refined_sizing([](vec3) { return 2.0; }).near(box), box) == 0); // which knows none
 }
 
 TEST_CASE(
