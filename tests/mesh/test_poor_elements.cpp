@@ -278,6 +278,53 @@ TEST_CASE("narrow triangles where two curves of a face run into each other are i
                                                     }).bad_by(poor_cause::boundary_triangle));
 }
 
+TEST_CASE("curves that run into each other are known by their numbers, too, whatever is beyond them") {
+  const auto mesh = blade();
+  const auto poor_by = [&](bool are_named, const auto& face_of) {
+    return all_poor(mesh, std::vector<local_id>(mesh.elements.size(), 0), [&](const auto& vertices) {
+      if (vertices.size() > 1)
+        return host{2, static_cast<local_id>(face_of(vertices))};
+      const vec3 p = mesh.points[vertices[0]];
+      if (!are_named || p.y > 1e-9)
+        return host{2, 0};
+      return p.x < 1e-9 || p.x > 1 - 1e-9 ? host{0, 0} : host{1, p.z < 1e-9 ? 7 : 8};
+    });
+  };
+  // Of the upper curve only the first half is at the same face as where it runs into the lower one.
+  const auto in_halves = [&](const auto& t) {
+    const bool in_first_half = all_at(mesh, t, [](vec3 p) { return p.x < 0.5; });
+    return face_at(mesh, t) == above && in_first_half ? 9 : static_cast<int>(face_at(mesh, t));
+  };
+  const auto triangles_at_left = [&](bool are_named) {
+    return poor_by(are_named, in_halves).bad_by(poor_cause::boundary_triangle);
+  };
+  CHECK(triangles_at_left(true) < triangles_at_left(false));
+
+  // Elements that go across a corner are in it though no side of theirs is poor, and no wedge is known.
+  const auto one_beside = [&](const auto& t) { return face_at(mesh, t) == left ? 1 : 0; };
+  const auto named = poor_by(true, one_beside), unnamed = poor_by(false, one_beside);
+  CHECK(named.bad_by(poor_cause::thin_wall) < unnamed.bad_by(poor_cause::thin_wall));
+  CHECK(named.bad_by(poor_cause::thin_wall) > 0); // those at the other curves
+}
+
+TEST_CASE("what is in an angle of the model is not the interface's") {
+  const auto mesh = blade();
+  std::vector<local_id> parts(mesh.elements.size());
+  for (std::size_t e = 0; e < parts.size(); ++e)
+    parts[e] = static_cast<local_id>(e % 2);
+  const auto poor = [&](bool are_two_faces) {
+    return all_poor(mesh, parts, [&](const auto& vertices) {
+      const bool between = vertices.size() == 3 && face_at(mesh, vertices) == above &&
+                           !all_at(mesh, vertices, [](vec3 p) { return p.z > 0.05 * p.x - 1e-9; });
+      return between ? host{3, 0} : host{2, are_two_faces && face_at(mesh, vertices) == below ? 1 : 0};
+    });
+  };
+  const auto of_one = poor(false), of_two = poor(true);
+  REQUIRE(of_one.low_by(poor_cause::interface_angle) > 0);
+  CHECK(of_two.low_by(poor_cause::interface_angle) < of_one.low_by(poor_cause::interface_angle));
+  CHECK(of_two.low_by(poor_cause::model_angle) > of_one.low_by(poor_cause::model_angle));
+}
+
 TEST_CASE("an element that nothing explains is the mesher's") {
   auto mesh = dovetail_test::jittered_cubes(4, 0);
   mesh.points[(2 * 5 + 2) * 5 + 2].x += 0.21; // of cells a quarter wide

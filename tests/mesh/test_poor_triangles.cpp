@@ -53,6 +53,11 @@ struct drawn_piece {
         skeleton.point_hosts.own()[v] = {1, curve};
   }
 
+  /// Curves may end there.
+  void set_model_vertex(local_id v) {
+    skeleton.point_hosts.own()[in_skeleton(v, piece.skeleton_points.size())] = {0, v};
+  }
+
   poor_elements poor() const {
     std::vector<local_id> listed(skeleton.sides.size());
     std::iota(listed.begin(), listed.end(), local_id{0});
@@ -167,6 +172,55 @@ TEST_CASE("where all vertices are on curves the face is narrow; one inside is th
   wide.add_side(0, 1, 0);
   CHECK(wide.poor().bad_by(poor_cause::thin_wall) == 0);
   CHECK(wide.poor().bad_by(poor_cause::inside) == 1);
+}
+
+namespace {
+
+/// Between a line at the bottom and one that leaves it at x = 0, or begins above it there, up to x = 3, with
+/// or without an inner vertex in the last quadrangle.
+drawn_piece between_lines(double at_start, double at_end, bool with_inner) {
+  const auto above = [&](double x) { return vec3{x, at_start + (at_end - at_start) * x / 3, 0}; };
+  const bool meet = at_start == 0;
+  std::vector<vec3> boundary{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, above(1), above(2), above(3)};
+  std::vector<simplex<2>> triangles{{0, 1, 4}, {1, 2, 4}, {2, 5, 4}};
+  if (!meet) {
+    boundary.push_back(above(0)); // 7
+    triangles.push_back({0, 4, 7});
+  }
+  const auto inner = static_cast<local_id>(boundary.size());
+  if (with_inner)
+    triangles.insert(triangles.end(), {{2, 3, inner}, {3, 6, inner}, {6, 5, inner}, {5, 2, inner}});
+  else
+    triangles.insert(triangles.end(), {{2, 3, 5}, {3, 6, 5}});
+  drawn_piece made(boundary,
+                   with_inner ? std::vector<vec3>{0.5 * (boundary[2] + boundary[6])} : std::vector<vec3>{},
+                   std::move(triangles));
+  for (const local_id v : {0, 1, 2})
+    made.add_side(v, v + 1, 3);
+  made.add_side(4, 5, 4);
+  made.add_side(5, 6, 4);
+  made.add_side(meet ? 0 : 7, 4, 4);
+  made.add_side(3, 6, 5);
+  if (!meet)
+    made.add_side(0, 7, 6);
+  for (const local_id v : {0, 3, 6, 7})
+    if (v < static_cast<local_id>(boundary.size()))
+      made.set_model_vertex(v);
+  return made;
+}
+
+} // namespace
+
+TEST_CASE("where two curves run into each other triangles between them are the model's, far away too") {
+  const auto meeting = between_lines(0, 0.1, false).poor();
+  CHECK(meeting.low_by(poor_cause::model_angle) == 5);
+  CHECK(meeting.low_by(poor_cause::thin_wall) == 0);
+  const auto with_inner = between_lines(0, 0.1, true).poor();
+  CHECK(with_inner.low_by(poor_cause::model_angle) == 7);
+
+  const auto apart = between_lines(0.05, 0.1, false).poor();
+  CHECK(apart.low_by(poor_cause::model_angle) == 0);
+  CHECK(apart.low_by(poor_cause::thin_wall) == 6);
 }
 
 TEST_CASE("causes of pieces add up, and survive as bytes") {

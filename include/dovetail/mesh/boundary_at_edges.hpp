@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/curve_corners.hpp"
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/mesh/piece_numbers.hpp"
@@ -29,7 +30,8 @@ public:
   /// degrees.
   boundary_at_edges(const mesh_piece& piece, const fine_skeleton& skeleton, std::span<const local_id> listed,
                     std::span<const simplex<3>> elements, double small_deg)
-      : small_deg_(small_deg), states_(states_of_vertices(piece, skeleton, elements)) {
+      : small_deg_(small_deg), states_(states_of_vertices(piece, skeleton, elements)),
+        curve_corners_(corners_of_curves(piece, skeleton, listed, small_deg)) {
     const piece_numbers numbers(piece.skeleton_points);
     for (const local_id s : listed) {
       const auto side = static_cast<std::size_t>(s);
@@ -72,14 +74,22 @@ public:
   }
 
   /// Whether the boundary triangle with these vertices is between two curves of its face that meet, somewhere
-  /// on this boundary, in a small angle. Curves are known by the faces beyond them.
+  /// on this boundary, in a small angle. Curves are known by their numbers, or by the faces beyond them.
   bool is_in_corner(const simplex<2>& side) const {
+    if (curve_corners_.hold(side, 1))
+      return true;
     const auto found = find_triangle(side);
     if (found == triangles_.end())
       return false;
     return std::any_of(corners_.begin(), corners_.end(), [&](const corner& one) {
       return one.face == found->face && touches(side, one.beyond[0]) && touches(side, one.beyond[1]);
     });
+  }
+
+  /// Whether the element goes across such a corner, where that is narrow beside the element's length.
+  bool is_across_corner(const simplex<3>& element) const {
+    constexpr double narrow = 0.4; // about the sine of a small angle
+    return curve_corners_.hold(element, narrow);
   }
 
   /// The smallest angle between boundary triangles at the edge from p to q that has the place `within` in it,
@@ -172,6 +182,21 @@ private:
         std::lower_bound(triangles_.begin(), triangles_.end(), wanted,
                          [](const triangle& a, const simplex<2>& b) { return a.vertices < b; });
     return found != triangles_.end() && found->vertices == wanted ? found : triangles_.end();
+  }
+
+  static curve_corners corners_of_curves(const mesh_piece& piece, const fine_skeleton& skeleton,
+                                         std::span<const local_id> listed, double small_deg) {
+    std::vector<host> hosts;
+    for (const local_id v : piece.skeleton_points)
+      hosts.push_back(skeleton.point_hosts[v]);
+    const piece_numbers numbers(piece.skeleton_points);
+    std::vector<face_triangle> triangles;
+    for (const local_id s : listed)
+      if (skeleton.side_hosts[s] != no_id) {
+        const auto& t = skeleton.sides[s];
+        triangles.push_back({{numbers[t[0]], numbers[t[1]], numbers[t[2]]}, skeleton.side_hosts[s]});
+      }
+    return {piece.mesh.points, std::move(hosts), triangles, small_deg};
   }
 
   /// From a line, at a right angle, to a place.
@@ -323,6 +348,7 @@ private:
   std::vector<std::pair<local_id, local_id>> faces_of_vertices_; ///< vertex, face
   std::vector<std::pair<local_id, local_id>> wedges_; ///< faces that meet or touch in a small angle
   std::vector<corner> corners_;
+  curve_corners curve_corners_;
 };
 
 } // namespace dovetail::detail

@@ -62,15 +62,26 @@ DOVETAIL_INLINE poor_cause cause_of(const mesh_piece& piece, const boundary_at_e
   for (const local_id v : element)
     middle += 0.25 * point(v);
   const auto sector = boundary.sector_at(edge, point(edge[0]), point(edge[1]), middle);
+  const auto is_beside_angle = [&] {
+    return boundary.is_in_wedge(element) || boundary.is_across_corner(element);
+  };
   if (sector.degrees < 2 * limit_deg)
-    return sector.on_surface ? poor_cause::model_angle : poor_cause::interface_angle;
+    return sector.on_surface || is_beside_angle() ? poor_cause::model_angle : poor_cause::interface_angle;
+  bool has_poor_side = false;
   for (const auto& local : numbering::sides<3>) {
     simplex<2> side;
     for (std::size_t k = 0; k < 3; ++k)
       side[k] = element[local[k]];
-    if (boundary.smallest_angle(side) < limit_deg)
-      return boundary.is_in_corner(side) ? poor_cause::model_angle : poor_cause::boundary_triangle;
+    if (boundary.smallest_angle(side) >= limit_deg)
+      continue;
+    if (boundary.is_in_corner(side))
+      return poor_cause::model_angle;
+    has_poor_side = true;
   }
+  if (boundary.is_across_corner(element))
+    return poor_cause::model_angle;
+  if (has_poor_side)
+    return poor_cause::boundary_triangle;
   if (boundary.is_in_wedge(element))
     return poor_cause::model_angle;
   if (boundary.is_in_wall(element))

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/mesh/curve_corners.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/mesh/piece_numbers.hpp"
 #include "dovetail/mesh/poor_triangles.hpp"
@@ -17,6 +18,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -170,13 +172,28 @@ inline std::vector<std::uint8_t> vertices_in_strips(const simplicial_piece<2>& p
   return state;
 }
 
+/// The corners of curves that a piece's triangles show.
+inline curve_corners corners_of_curves(const simplicial_piece<2>& piece,
+                                       const simplicial_skeleton<2>& skeleton) {
+  std::vector<host> hosts;
+  for (const local_id v : piece.skeleton_points)
+    hosts.push_back(skeleton.point_hosts[v]);
+  std::vector<face_triangle> triangles;
+  for (std::size_t e = 0; e < piece.mesh.elements.size(); ++e)
+    triangles.push_back({piece.mesh.elements[e], piece.mesh.tags.empty() ? 0 : piece.mesh.tags[e]});
+  return {piece.mesh.points, std::move(hosts), triangles, 2 * bad_corner_deg};
+}
+
 /// The cause for one triangle whose smallest angle is below a limit.
 /// \param in_strips as `vertices_in_strips` gives them
 inline poor_cause cause_of(const simplicial_piece<2>& piece, const std::vector<std::uint8_t>& in_strips,
-                           const sides_at_corners& sides, const poor_triangle& one, double limit_deg) {
+                           const sides_at_corners& sides, const curve_corners& in_corners,
+                           const poor_triangle& one, double limit_deg) {
   if (const auto sector = sides.sector_of(one); sector.degrees < 2 * limit_deg)
     return sector.on_curves ? poor_cause::model_angle : poor_cause::interface_angle;
   const auto& element = piece.mesh.elements[one.element];
+  if (in_corners.hold(element, 1))
+    return poor_cause::model_angle;
   if (std::all_of(element.begin(), element.end(), [&](local_id v) { return in_strips[v] == 1; }))
     return poor_cause::thin_wall;
   const auto shared = static_cast<local_id>(piece.skeleton_points.size());
@@ -201,11 +218,12 @@ DOVETAIL_INLINE poor_elements find_poor_elements(const simplicial_piece<2>& piec
   if (found.empty())
     return result;
   const detail::sides_at_corners sides(piece, skeleton, listed, found);
+  const auto in_corners = detail::corners_of_curves(piece, skeleton);
   const auto in_strips = detail::vertices_in_strips(piece, skeleton, found);
   for (const detail::poor_triangle& one : found) {
     const bool is_bad = one.angle_deg < bad_corner_deg;
     const poor_cause cause =
-        detail::cause_of(piece, in_strips, sides, one, is_bad ? bad_corner_deg : low_corner_deg);
+        detail::cause_of(piece, in_strips, sides, in_corners, one, is_bad ? bad_corner_deg : low_corner_deg);
     const auto k = static_cast<std::size_t>(cause);
     ++result.low[k];
     if (!is_bad)
