@@ -205,7 +205,8 @@ void add_suppressed(table& rows, const std::vector<suppressed_detail>& details) 
   for (const auto& [what, label] : {std::pair(kind::narrow_face, "Narrow faces"),
                                     {kind::narrow_end, "Narrow ends of faces"},
                                     {kind::narrow_gap, "Narrow gaps between edges"},
-                                    {kind::short_edge, "Short edges"}})
+                                    {kind::short_edge, "Short edges"},
+                                    {kind::joined_face, "Faces joined to others"}})
     if (const auto count = std::count_if(details.begin(), details.end(),
                                          [what = what](const auto& each) { return each.what == what; });
         count > 0)

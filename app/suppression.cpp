@@ -91,6 +91,8 @@ void suppression::simplify(model_source& source) {
   virtual_options options{.kept_faces = kept_};
   if (options_.suppress)
     options.share_of_size = 1;
+  if (dimension_ == 2) // the faces are what is meshed, each for itself
+    options.share_of_joined = 0;
   const any_sizing size = options_.suppress        ? any_sizing(uniform_size(*options_.suppress))
                           : source.size_of_details ? source.size_of_details
                                                    : given_size_;

@@ -3,6 +3,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/input_file.hpp"
 #include "dovetail/core/number_text.hpp"
+#include "dovetail/models/virtual/suppressed_detail.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -122,9 +123,11 @@ private:
         fail(path + " is no object");
       const double length = number(member(each, path, "length"), path + "/length");
       const double entity = number(member(each, path, "entity"), path + "/entity");
+      const std::string what = text(member(each, path, "what"), path + "/what");
+      const bool is_there = what == name_of(suppressed_detail::kind::joined_face);
       marks_.push_back({place(each, path), std::string(label), colour,
-                        text(member(each, path, "what"), path + "/what") + " " + number_text(entity, 12) +
-                            ", left out; " + number_text(length, 4)});
+                        what + " " + number_text(entity, 12) + (is_there ? "; " : ", left out; ") +
+                            number_text(length, 4)});
     }
   }
   void add_angles(const nlohmann::json& interfaces, const std::string& path, bool coarse) {

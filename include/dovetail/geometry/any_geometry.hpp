@@ -47,6 +47,10 @@ public:
   bool thread_safe() const { return held_->thread_safe(); }
   /// Nothing when the held model is no `geometry_model_with_planes`.
   std::optional<surface_frame> plane_of_face(local_id f) const { return held_->plane_of_face(f); }
+  /// The face itself when the held model is no `geometry_model_with_members`.
+  local_id face_at(local_id f, vec3 p) const { return held_->face_at(f, p); }
+  /// Likewise.
+  local_id whole_face(local_id f) const { return held_->whole_face(f); }
 
 private:
   struct interface {
@@ -64,6 +68,8 @@ private:
     virtual box3 bounds() const = 0;
     virtual bool thread_safe() const = 0;
     virtual std::optional<surface_frame> plane_of_face(local_id f) const = 0;
+    virtual local_id face_at(local_id f, vec3 p) const = 0;
+    virtual local_id whole_face(local_id f) const = 0;
   };
 
   template <class G>
@@ -104,6 +110,8 @@ private:
     std::optional<surface_frame> plane_of_face(local_id f) const override {
       return dovetail::plane_of_face(held, f);
     }
+    local_id face_at(local_id f, vec3 p) const override { return dovetail::face_at(held, f, p); }
+    local_id whole_face(local_id f) const override { return dovetail::whole_face(held, f); }
     /// What a model throws that is no error of ours becomes a `geometry_error` that names the entity.
     template <class F>
     static auto of_face(local_id f, const F& query) {
@@ -134,6 +142,6 @@ any_geometry::any_geometry(G held) : held_(std::make_shared<const model<G>>(std:
   check_topology(topology());
 }
 
-static_assert(geometry_model_with_planes<any_geometry>);
+static_assert(geometry_model_with_planes<any_geometry> && geometry_model_with_members<any_geometry>);
 
 } // namespace dovetail

@@ -138,6 +138,28 @@ concept geometry_model_with_planes = geometry_model<G> && requires(const G& g, l
   { g.plane_of_face(id) } -> std::same_as<std::optional<surface_frame>>;
 };
 
+/// The role `geometry_model_with_members`: a model whose faces may be several faces, its members, that are
+/// met with again in the mesh.
+///
+/// Valid expressions for `const G& g`, `local_id f`, `vec3 p`: those of `geometry_model<G>` and
+///
+/// - `g.face_at(f, p)`: local_id; the member of face f that is nearest p
+/// - `g.whole_face(f)`: local_id; the face that a member is a part of
+///
+/// Semantics: members have numbers of faces. A face that is not several is its only member. Triangles of the
+/// mesh of solids have numbers of members.
+///
+/// Complexity: constant, or log n.
+///
+/// Failure: none.
+///
+/// Models: any_geometry, virtual_model.
+template <class G>
+concept geometry_model_with_members = geometry_model<G> && requires(const G& g, local_id id, vec3 p) {
+  { g.face_at(id, p) } -> std::same_as<local_id>;
+  { g.whole_face(id) } -> std::same_as<local_id>;
+};
+
 /// The plane of a face, as `geometry_model_with_planes` has it; nothing of a model that knows no planes.
 /// \param model a model
 /// \param face the number of a face
@@ -147,6 +169,29 @@ std::optional<surface_frame> plane_of_face([[maybe_unused]] const G& model, [[ma
     return model.plane_of_face(face);
   else
     return std::nullopt;
+}
+
+/// The member of a face at a point, as `geometry_model_with_members` has it; the face, of other models.
+/// \param model a model
+/// \param face the number of a face
+/// \param p a point of that face, or near it
+template <geometry_model G>
+local_id face_at([[maybe_unused]] const G& model, local_id face, [[maybe_unused]] vec3 p) {
+  if constexpr (geometry_model_with_members<G>)
+    return model.face_at(face, p);
+  else
+    return face;
+}
+
+/// The face that a member is a part of, as `geometry_model_with_members` has it; the member, of other models.
+/// \param model a model
+/// \param member the number of a face
+template <geometry_model G>
+local_id whole_face([[maybe_unused]] const G& model, local_id member) {
+  if constexpr (geometry_model_with_members<G>)
+    return model.whole_face(member);
+  else
+    return member;
 }
 
 } // namespace dovetail

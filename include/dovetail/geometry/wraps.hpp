@@ -10,7 +10,7 @@
 namespace dovetail {
 
 /// Base of a geometry model that changes a part of what another one answers, or notes what it is asked. What
-/// `Model` knows beyond a `geometry_model`, planes and its volume, is known of it too.
+/// `Model` knows beyond a `geometry_model`, planes, members and its volume, is known of it too.
 template <class Self, class Model>
 struct model_wraps : wrapped_policy<Self, Model> {
   static_assert(geometry_model<Model>, "model_wraps holds a geometry_model (geometry/concepts.hpp)");
@@ -44,6 +44,14 @@ struct model_wraps : wrapped_policy<Self, Model> {
   /// The plane of a face, where it is one.
   std::optional<surface_frame> plane_of_face(local_id f) const requires geometry_model_with_planes<Model> {
     return wrapped.plane_of_face(f);
+  }
+  /// The member of a face at a point, where it has members.
+  local_id face_at(local_id f, vec3 p) const requires geometry_model_with_members<Model> {
+    return wrapped.face_at(f, p);
+  }
+  /// The face that a member is a part of.
+  local_id whole_face(local_id f) const requires geometry_model_with_members<Model> {
+    return wrapped.whole_face(f);
   }
   /// Volume of all solids.
   double volume() const requires requires(const Model& model) { model.volume(); }

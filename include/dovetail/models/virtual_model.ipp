@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dovetail/core/linkage.hpp"
+#include "dovetail/models/virtual/composite_faces.hpp"
 #include "dovetail/models/virtual/editable_topology.hpp"
 #include "dovetail/models/virtual/narrow_faces.hpp"
 #include "dovetail/models/virtual/narrow_gaps.hpp"
@@ -43,6 +44,65 @@ struct virtual_model::data {
   std::vector<std::array<detail::bent_end, 2>> bent;                  ///< by curve
   std::vector<std::vector<virtual_topology::virtual_coedge>> coedges; ///< by face
   std::vector<suppressed_detail> suppressed;
+  std::vector<virtual_topology::composite_face> composites;
+  std::vector<std::size_t> composite_of; ///< by face of the model: growing where it is of one, or none
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// What the topology, and the model, say of boundaries.
+  void take(const any_geometry& model, const virtual_topology::editable_topology& edited) {
+    topology = edited.topology();
+    inner_curve.clear();
+    for (std::size_t c = 0; c < edited.curve_count(); ++c)
+      inner_curve.push_back(edited.inner_curve(static_cast<local_id>(c)));
+    coedges.assign(edited.face_count(), {});
+    for (std::size_t f = 0; f < edited.face_count(); ++f)
+      for (const auto& loop : edited.loops(static_cast<local_id>(f)))
+        coedges[f].insert(coedges[f].end(), loop.begin(), loop.end());
+    bent.clear();
+    bend_curves(model, edited);
+    widen_at_corners(model);
+  }
+
+  /// Joins faces of a topology that was taken.
+  void join(const any_geometry& model, virtual_topology::editable_topology& edited,
+            const virtual_topology::limits& allowed) {
+    composites = virtual_topology::join_faces(
+        edited, allowed,
+        [&](const virtual_topology::virtual_coedge& coedge, double t) { return own_uv(model, coedge, t); },
+        suppressed);
+    composite_of.assign(edited.face_count(), none);
+    for (std::size_t k = 0; k < composites.size(); ++k)
+      for (const local_id member : composites[k].members)
+        composite_of[member] = k;
+    if (!composites.empty())
+      take(model, edited);
+  }
+
+  /// The composite that a number stands for, if it does.
+  const virtual_topology::composite_face* composite(local_id f) const {
+    const std::size_t k = composite_of.empty() ? none : composite_of[f];
+    return k != none && composites[k].host == f ? &composites[k] : nullptr;
+  }
+
+  /// Where a passage is in the parameter plane of the model's face.
+  vec2 own_uv(const any_geometry& model, const virtual_topology::virtual_coedge& coedge, double t) const {
+    const local_id inner = inner_curve[coedge.curve];
+    const auto uv_at = [&](double at) {
+      return model.curve_uv(coedge.own_face, coedge.own,
+                            virtual_topology::own_parameter(model, inner, coedge, at));
+    };
+    const vec2 uv = uv_at(t);
+    vec2 moved = uv;
+    for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
+      if (coedge.corners[end]) {
+        const double at_end = topology.curves[coedge.curve].t[end];
+        const auto& bends = bent[coedge.curve][end];
+        const double share = t == at_end ? 1 : bends.share_at(model.curve_point(inner, t))[0];
+        if (share > 0)
+          moved = moved + share * (*coedge.corners[end] - uv_at(at_end));
+      }
+    return moved;
+  }
 
   void bend_curves(const any_geometry& model, const virtual_topology::editable_topology& edited) {
     // In displacements of its end. Where that is moved across, a curve turns by about 20 degrees at most; one
@@ -73,17 +133,17 @@ struct virtual_model::data {
 
   /// A face that goes on to where an edge was has its corner there: its passages are off by as much at most.
   void widen_at_corners(const any_geometry& model) {
-    for (std::size_t f = 0; f < coedges.size(); ++f)
-      for (const auto& coedge : coedges[f])
+    for (const auto& of_face : coedges)
+      for (const auto& coedge : of_face)
         for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
           if (!coedge.corners[end])
             continue;
-          const auto face = static_cast<local_id>(f);
           auto& curve = topology.curves[coedge.curve];
           const double own =
               virtual_topology::own_parameter(model, inner_curve[coedge.curve], coedge, curve.t[end]);
-          curve.tolerance += distance(model.face_point(face, *coedge.corners[end]),
-                                      model.face_point(face, model.curve_uv(face, coedge.own, own)));
+          curve.tolerance +=
+              distance(model.face_point(coedge.own_face, *coedge.corners[end]),
+                       model.face_point(coedge.own_face, model.curve_uv(coedge.own_face, coedge.own, own)));
         }
   }
 };
@@ -95,6 +155,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
   sizing::checked_length(options.least_angle_deg, "the least angle beside details");
   sizing::checked_length(options.least_corner_deg, "the least angle of corners beside details");
   sizing::checked_length(options.share_of_folded, "the share of the size that folded faces have");
+  sizing::checked_length(options.share_of_joined, "the share of the size that faces joined to others have");
   const auto up_to = [&](double share) {
     return virtual_topology::limits{[&size, share](vec3 p) { return share * size(p); },
                                     options.least_angle_deg, options.least_corner_deg, options.kept_faces};
@@ -113,16 +174,9 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
     found += collapse_narrow_ends(topology, allowed, made->suppressed);
     found += collapse_narrow_gaps(topology, allowed, made->suppressed);
   }
-  made->topology = topology.topology();
-  for (std::size_t c = 0; c < topology.curve_count(); ++c)
-    made->inner_curve.push_back(topology.inner_curve(static_cast<local_id>(c)));
-  for (std::size_t f = 0; f < topology.face_count(); ++f) {
-    auto& coedges = made->coedges.emplace_back();
-    for (const auto& loop : topology.loops(static_cast<local_id>(f)))
-      coedges.insert(coedges.end(), loop.begin(), loop.end());
-  }
-  made->bend_curves(model_, topology);
-  made->widen_at_corners(model_);
+  made->take(model_, topology);
+  if (options.share_of_joined > 0)
+    made->join(model_, topology, up_to(options.share_of_joined));
   data_ = std::move(made);
 }
 
@@ -160,21 +214,44 @@ DOVETAIL_INLINE curve_frame virtual_model::curve_frame(local_id c, double t) con
 
 DOVETAIL_INLINE vec2 virtual_model::curve_uv(local_id f, int k, double t) const {
   const auto& coedge = data_->coedges[f][k];
-  const local_id inner = data_->inner_curve[coedge.curve];
-  const auto uv_at = [&](double at) {
-    return model_.curve_uv(f, coedge.own, virtual_topology::own_parameter(model_, inner, coedge, at));
-  };
-  const vec2 uv = uv_at(t);
-  vec2 moved = uv;
-  for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
-    if (coedge.corners[end]) {
-      const double at_end = data_->topology.curves[coedge.curve].t[end];
-      const auto& bent = data_->bent[coedge.curve][end];
-      const double share = t == at_end ? 1 : bent.share_at(model_.curve_point(inner, t))[0];
-      if (share > 0)
-        moved = moved + share * (*coedge.corners[end] - uv_at(at_end));
-    }
-  return moved;
+  const vec2 own = data_->own_uv(model_, coedge, t);
+  const auto* joined = data_->composite(f);
+  return joined ? joined->chart.flat(model_.face_point(coedge.own_face, own)) : own;
+}
+
+DOVETAIL_INLINE vec3 virtual_model::face_point(local_id f, vec2 uv) const {
+  const auto* joined = data_->composite(f);
+  return joined ? joined->chart.point(model_, uv) : model_.face_point(f, uv);
+}
+
+DOVETAIL_INLINE surface_frame virtual_model::face_frame(local_id f, vec2 uv) const {
+  const auto* joined = data_->composite(f);
+  return joined ? joined->chart.frame(model_, uv) : model_.face_frame(f, uv);
+}
+
+DOVETAIL_INLINE double virtual_model::face_curvature(local_id f, vec2 uv) const {
+  const auto* joined = data_->composite(f);
+  return joined ? joined->chart.curvature(model_, uv) : model_.face_curvature(f, uv);
+}
+
+DOVETAIL_INLINE vec2 virtual_model::project_to_face(local_id f, vec3 p, vec2 seed) const {
+  const auto* joined = data_->composite(f);
+  return joined ? joined->chart.project(model_, p) : model_.project_to_face(f, p, seed);
+}
+
+DOVETAIL_INLINE std::optional<surface_frame> virtual_model::plane_of_face(local_id f) const {
+  const auto* joined = data_->composite(f);
+  return joined ? joined->chart.plane() : model_.plane_of_face(f);
+}
+
+DOVETAIL_INLINE local_id virtual_model::face_at(local_id f, vec3 p) const {
+  const auto* joined = data_->composite(f);
+  return joined ? joined->chart.face_at(p) : f;
+}
+
+DOVETAIL_INLINE local_id virtual_model::whole_face(local_id f) const {
+  const std::size_t k = data_->composite_of.empty() ? data::none : data_->composite_of[f];
+  return k == data::none ? f : data_->composites[k].host;
 }
 
 DOVETAIL_INLINE double virtual_model::project_to_curve(local_id c, vec3 p, double seed) const {
@@ -201,7 +278,8 @@ DOVETAIL_INLINE report virtual_model::summary() const {
     ++(one.what == suppressed_detail::kind::narrow_face  ? counts.narrow_faces
        : one.what == suppressed_detail::kind::narrow_end ? counts.narrow_ends
        : one.what == suppressed_detail::kind::narrow_gap ? counts.narrow_gaps
-                                                         : counts.short_edges);
+       : one.what == suppressed_detail::kind::short_edge ? counts.short_edges
+                                                         : counts.joined_faces);
     counts.largest = std::max(counts.largest, one.length);
   }
   report made;

@@ -6,15 +6,41 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace dovetail::detail {
+
+/// Gives triangles, and points inside of faces, the numbers of the faces' members that they are on.
+inline void name_members(const any_geometry& model, fine_skeleton& skeleton) {
+  const std::size_t faces = model.topology().faces.size();
+  std::vector<bool> is_several(faces, false);
+  for (std::size_t f = 0; f < faces; ++f)
+    if (const auto member = static_cast<local_id>(f); model.whole_face(member) != member)
+      is_several[model.whole_face(member)] = true;
+  if (std::find(is_several.begin(), is_several.end(), true) == is_several.end())
+    return;
+  auto& of_sides = skeleton.side_hosts.own();
+  for (std::size_t s = 0; s < of_sides.size(); ++s)
+    if (const local_id f = of_sides[s]; f != no_id && is_several[f]) {
+      const auto& [a, b, c] = skeleton.sides[s];
+      of_sides[s] = model.face_at(f, (skeleton.points[a] + skeleton.points[b] + skeleton.points[c]) / 3);
+    }
+  auto& of_points = skeleton.point_hosts.own();
+  for (std::size_t v = 0; v < of_points.size(); ++v)
+    if (host& on = of_points[v]; on.dimension == 2 && is_several[on.id])
+      on.id = model.face_at(on.id, skeleton.points[v]);
+}
 
 template <int D>
 distributed_simplicial_mesh<D> assemble_mesh(const any_geometry& model, simplicial_skeleton<D> skeleton,
                                              const meshed_pieces<D>& meshed) {
   distributed_simplicial_mesh<D> mesh;
   mesh.skeleton = std::move(skeleton);
+  if constexpr (D == 3)
+    name_members(model, mesh.skeleton);
   for (const piece_summary& piece : meshed.pieces) {
     mesh.counts.push_back(piece.counts);
     mesh.quality.push_back(piece.quality);

@@ -46,6 +46,15 @@ struct kept_middles {
   using fields = field_list<&kept_middles::points, &kept_middles::inner, &kept_middles::counts>;
 };
 
+/// The entity that a side with this number is on, as the model evaluates it.
+template <int D>
+host host_of_side([[maybe_unused]] const any_geometry& model, local_id number) {
+  if constexpr (D == 3)
+    return {2, model.whole_face(number)};
+  else
+    return {1, number};
+}
+
 template <int D>
 class second_order_pass {
 public:
@@ -116,7 +125,7 @@ private:
       if (skeleton.side_hosts[s] != no_id)
         for (const auto& local : numbering::edges<D - 1>) {
           host& on = host_of(edge_of(vertices_of_edge(skeleton.sides[s], local)));
-          on = std::min(on, host{D - 1, skeleton.side_hosts[s]});
+          on = std::min(on, host_of_side<D>(model_, skeleton.side_hosts[s]));
         }
     for (std::size_t e = 0; e < skeleton.curve_edges.size(); ++e)
       host_of(edge_of(skeleton.curve_edges[e])) = {1, skeleton.curves[e]};
@@ -323,7 +332,8 @@ private:
 
 /// The entity of each edge of a gathered mesh.
 template <int D>
-std::vector<host> hosts_of_edges(const gathered_mesh<D>& mesh, const edge_table<D>& edges) {
+std::vector<host> hosts_of_edges(const gathered_mesh<D>& mesh, const edge_table<D>& edges,
+                                 const any_geometry& model) {
   std::vector<host> hosts(edges.vertices.size());
   if constexpr (D == 2)
     hosts = faces_of_edges(mesh.mesh, edges);
@@ -333,7 +343,7 @@ std::vector<host> hosts_of_edges(const gathered_mesh<D>& mesh, const edge_table<
   for (std::size_t s = 0; s < mesh.sides.size(); ++s)
     for (const auto& local : numbering::edges<D - 1>) {
       host& on = at(vertices_of_edge(mesh.sides[s], local));
-      on = std::min(on, host{D - 1, mesh.side_hosts[s]});
+      on = std::min(on, host_of_side<D>(model, mesh.side_hosts[s]));
     }
   for (std::size_t e = 0; e < mesh.curve_edges.size(); ++e)
     at(mesh.curve_edges[e]) = {1, mesh.curves[e]};
@@ -359,7 +369,7 @@ second_order_mesh<D> second_order(const gathered_mesh<D>& mesh, const any_geomet
   const stopwatch clock;
   const auto& corners = mesh.mesh.points;
   const auto edges = build_edges<D>(span_of(mesh.mesh.elements), corners.size());
-  const auto hosts = detail::hosts_of_edges(mesh, edges);
+  const auto hosts = detail::hosts_of_edges(mesh, edges, model);
   detail::moving_middles middles;
   middles.straight = detail::straight_middles(edges.vertices, corners);
   middles.moved.assign(hosts.size(), 0);

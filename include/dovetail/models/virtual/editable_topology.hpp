@@ -19,6 +19,7 @@ struct virtual_coedge {
   bool reversed = false;      ///< run from t[1] to t[0] of that curve
   int own = 0;                ///< the coedge of the model's face that it follows in the parameter plane
   local_id own_curve = no_id; ///< the model's curve that this one passes along
+  local_id own_face = no_id;  ///< the model's face: a member, where the face is a composite of several
   /// Ascending parameters of `curve`, and of `own_curve` beside them; empty where both are the same curve.
   std::vector<std::array<double, 2>> beside = {};
   /// Where the ends at t[0] and t[1] are in the parameter plane, if not where `own` says: the two ends of an
@@ -85,8 +86,8 @@ public:
   vec3 direction(const virtual_coedge& coedge, double share) const;
   /// From a passage into the face, square to its direction and the face's normal, at such a share.
   vec3 inward(local_id face, const virtual_coedge& coedge, double share) const;
-  /// Where a passage is in the parameter plane of its face.
-  vec2 uv(local_id face, const virtual_coedge& coedge, double t) const;
+  /// Where a passage is in the parameter plane of the model's face.
+  vec2 uv(const virtual_coedge& coedge, double t) const;
   /// The vertices where a passage starts and ends.
   std::array<local_id, 2> ends(const virtual_coedge& coedge) const;
 
@@ -106,6 +107,9 @@ public:
   void replace_curve(local_id gone, local_id kept, bool same_direction, double width);
   /// Leaves a face without loops.
   void remove_face(local_id f);
+  /// Gives a face the boundary of another one as well, which is left without loops.
+  /// \param loops of both together
+  void take_over(local_id f, local_id gone, std::vector<std::vector<virtual_coedge>> loops);
 
   /// How far what ends at a vertex is at most from where the model has it.
   double deviation_of_vertex(local_id v) const { return vertex_deviations_[v]; }

@@ -54,8 +54,9 @@ DOVETAIL_INLINE editable_topology::editable_topology(const any_geometry* model)
     for (const auto& given : face.loops) {
       auto& loop = loops.emplace_back();
       for (const auto& coedge : given) {
-        loop.push_back({coedge.curve, coedge.reversed, own++, coedge.curve});
-        add_passage(coedge.curve, static_cast<local_id>(loops_.size()));
+        const auto f = static_cast<local_id>(loops_.size());
+        loop.push_back({coedge.curve, coedge.reversed, own++, coedge.curve, f});
+        add_passage(coedge.curve, f);
       }
     }
     loops_.push_back(std::move(loops));
@@ -150,19 +151,20 @@ DOVETAIL_INLINE vec3 editable_topology::direction(const virtual_coedge& coedge, 
   return normalized(coedge.reversed ? -d : d);
 }
 
-DOVETAIL_INLINE vec2 editable_topology::uv(local_id face, const virtual_coedge& coedge, double t) const {
+DOVETAIL_INLINE vec2 editable_topology::uv(const virtual_coedge& coedge, double t) const {
   const auto& range = curves_[coedge.curve].t;
   for (const std::size_t end : {std::size_t{0}, std::size_t{1}})
     if (t == range[end] && coedge.corners[end])
       return *coedge.corners[end];
-  return model_->curve_uv(face, coedge.own, own_parameter(*model_, inner_curve_[coedge.curve], coedge, t));
+  return model_->curve_uv(coedge.own_face, coedge.own,
+                          own_parameter(*model_, inner_curve_[coedge.curve], coedge, t));
 }
 
 DOVETAIL_INLINE vec3 editable_topology::inward(local_id face, const virtual_coedge& coedge,
                                                double share) const {
   const auto& t = curves_[coedge.curve].t;
   const double along = coedge.reversed ? 1 - share : share;
-  const surface_frame frame = model_->face_frame(face, uv(face, coedge, t[0] + along * (t[1] - t[0])));
+  const surface_frame frame = model_->face_frame(face, uv(coedge, t[0] + along * (t[1] - t[0])));
   return normalized(cross(cross(frame.du, frame.dv), direction(coedge, share)));
 }
 
@@ -239,7 +241,7 @@ DOVETAIL_INLINE void editable_topology::drop(const passage& p, local_id kept) {
     virtual_coedge& after = loop[(p.place + 1) % count];
     const auto& t = curves_[gone.curve].t;
     const bool starts_there = ends(gone)[0] == kept;
-    const vec2 corner = uv(p.face, gone, starts_there != gone.reversed ? t[0] : t[1]);
+    const vec2 corner = uv(gone, starts_there != gone.reversed ? t[0] : t[1]);
     if (starts_there)
       after.corners[after.reversed ? 1 : 0] = corner;
     else
@@ -280,7 +282,7 @@ DOVETAIL_INLINE void editable_topology::cut_out(local_id f, const std::vector<lo
       return coedge.reversed == at_start ? 1 : 0;
     };
     const auto uv_at = [&](const virtual_coedge& coedge, int end) {
-      return uv(f, coedge, curves_[coedge.curve].t[end]);
+      return uv(coedge, curves_[coedge.curve].t[end]);
     };
     if (ends(first)[0] == kept)
       last.corners[end_of(last, false)] = uv_at(first, end_of(first, true));
@@ -331,6 +333,16 @@ DOVETAIL_INLINE void editable_topology::remove_face(local_id f) {
     for (const virtual_coedge& coedge : loop)
       --passages_.change(coedge.curve);
   loops_.change(f).clear();
+}
+
+DOVETAIL_INLINE void editable_topology::take_over(local_id f, local_id gone,
+                                                  std::vector<std::vector<virtual_coedge>> loops) {
+  remove_face(f);
+  remove_face(gone);
+  for (const auto& loop : loops)
+    for (const virtual_coedge& coedge : loop)
+      add_passage(coedge.curve, f);
+  loops_.change(f) = std::move(loops);
 }
 
 DOVETAIL_INLINE geometry_topology editable_topology::topology() const {

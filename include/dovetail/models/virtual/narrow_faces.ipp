@@ -84,7 +84,7 @@ inline bool turns_back(const editable_topology& topology, local_id f, const side
     const double at = t[0] + (here.reversed ? 1 - share : share) * (t[1] - t[0]);
     const place_on_side across = nearest_on(topology, opposite, topology.point(passed.curve, at));
     const vec3 end = topology.point(opposite[across.curve].curve, across.t);
-    const vec2 foot = model.project_to_face(other.face, end, topology.uv(other.face, there, at));
+    const vec2 foot = model.project_to_face(other.face, end, topology.uv(there, at));
     return distance(model.face_point(other.face, foot), end) <= apart * width;
   };
   for (const passage& own : passages)

@@ -61,7 +61,7 @@ inline local_id solid_towards(const editable_topology& topology, local_id c, loc
       continue;
     least = angle;
     const auto& face = topology.model().topology().faces[p.face];
-    const surface_frame frame = topology.model().face_frame(p.face, topology.uv(p.face, coedge, middle));
+    const surface_frame frame = topology.model().face_frame(p.face, topology.uv(coedge, middle));
     const double off = dot(normalized(cross(frame.du, frame.dv)), towards) * (face.reversed ? -1 : 1);
     solid = std::abs(off) < least_off ? no_id : face.solids[off > 0 ? 1 : 0];
   }

@@ -222,8 +222,7 @@ private:
     constexpr double least_width = 0.5; // of the largest one
     constexpr double least_off = 0.2;   // of the face: the sine of an angle
     const auto& face = topology_.model().topology().faces[p.face];
-    const surface_frame frame =
-        topology_.model().face_frame(p.face, topology_.uv(p.face, topology_.at(p), t));
+    const surface_frame frame = topology_.model().face_frame(p.face, topology_.uv(topology_.at(p), t));
     const double off =
         dot(normalized(cross(frame.du, frame.dv)), normalized(across)) * (face.reversed ? -1 : 1);
     const std::size_t front = off > 0 ? 1 : 0;
