@@ -13,6 +13,7 @@
 #include "dovetail/sizing/bounds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -45,7 +46,8 @@ struct virtual_model::data {
   std::vector<std::vector<virtual_topology::virtual_coedge>> coedges; ///< by face
   std::vector<suppressed_detail> suppressed;
   std::vector<virtual_topology::composite_face> composites;
-  std::vector<std::size_t> composite_of; ///< by face of the model: growing where it is of one, or none
+  std::vector<std::size_t> composite_of; ///< by face of the model: the composite that it is of, or none
+  std::vector<std::vector<std::array<vec2, 2>>> closing; ///< by face, of composites by coedge: at its ends
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   /// What the topology, and the model, say of boundaries.
@@ -76,6 +78,38 @@ struct virtual_model::data {
         composite_of[member] = k;
     if (!composites.empty())
       take(model, edited);
+    closing.assign(edited.face_count(), {});
+    for (const auto& composite : composites)
+      close_loops(model, composite);
+  }
+
+  /// Members need not have a vertex at just the same point: what is missing at both ends is added all along
+  /// a curve.
+  void close_loops(const any_geometry& model, const virtual_topology::composite_face& composite) {
+    const auto& chart = composite.chart;
+    for (const auto& coedge : coedges[composite.host]) {
+      auto& curve = topology.curves[coedge.curve];
+      auto& missing = closing[composite.host].emplace_back();
+      double furthest = 0;
+      for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+        const vec3 p = model.face_point(coedge.own_face, own_uv(model, coedge, curve.t[end]));
+        const vec2 at = chart.flat(topology.vertices[curve.vertices[end]].point);
+        missing[end] = at - chart.flat(p);
+        furthest = std::max(furthest, distance(chart.point(model, at), p));
+      }
+      curve.tolerance += furthest;
+    }
+  }
+
+  /// Parameters on a composite.
+  vec2 uv_on(const any_geometry& model, const virtual_topology::composite_face& composite, int k,
+             double t) const {
+    const auto& coedge = coedges[composite.host][k];
+    const auto& range = topology.curves[coedge.curve].t;
+    const auto& missing = closing[composite.host][k];
+    const vec3 p = model.face_point(coedge.own_face, own_uv(model, coedge, t));
+    const double share = (t - range[0]) / (range[1] - range[0]);
+    return composite.chart.flat(p) + (1 - share) * missing[0] + share * missing[1];
   }
 
   /// The composite that a number stands for, if it does.
@@ -213,10 +247,8 @@ DOVETAIL_INLINE curve_frame virtual_model::curve_frame(local_id c, double t) con
 }
 
 DOVETAIL_INLINE vec2 virtual_model::curve_uv(local_id f, int k, double t) const {
-  const auto& coedge = data_->coedges[f][k];
-  const vec2 own = data_->own_uv(model_, coedge, t);
   const auto* joined = data_->composite(f);
-  return joined ? joined->chart.flat(model_.face_point(coedge.own_face, own)) : own;
+  return joined ? data_->uv_on(model_, *joined, k, t) : data_->own_uv(model_, data_->coedges[f][k], t);
 }
 
 DOVETAIL_INLINE vec3 virtual_model::face_point(local_id f, vec2 uv) const {

@@ -2,11 +2,14 @@
 /// What `composite_faces.hpp` declares.
 #pragma once
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/models/virtual/composite_faces.hpp"
 #include "dovetail/models/virtual/strip.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
+#include "dovetail/sizing/facing_search.hpp"
+#include "dovetail/sizing/surface_samples.hpp"
 
 #include <algorithm>
 #include <array>
@@ -57,7 +60,64 @@ inline std::optional<vec3> direction_of(const std::vector<charted_triangle>& tri
   return dot(most_oblique(n), n) >= least_cosine ? std::optional(n) : std::nullopt;
 }
 
-/// A union that may be, and how good it would be.
+/// Where the wall behind a face, or in front of it, is thinner than half of the limit. Its two sides must be
+/// meshed alike there, which lines along both of them do best. The model is sampled at the first question.
+class thin_walls {
+public:
+  thin_walls(const any_geometry& model, const any_sizing& limit) : model_(model), limit_(limit) {}
+
+  /// Whether it is so anywhere at a face.
+  bool are_at(local_id f) {
+    const auto known = thin_.find(f);
+    return known != thin_.end() ? known->second
+                                : thin_.emplace(f, are_at(f, [](vec3) { return true; })).first->second;
+  }
+  /// Whether it is so near a place.
+  bool are_near(local_id f, vec3 place) {
+    constexpr double reach = 1.5; // limits
+    return are_at(f, [&](vec3 p) { return distance(p, place) <= reach * limit_(place); });
+  }
+
+private:
+  static constexpr double thin = 0.5; ///< limits
+
+  template <class Wanted>
+  bool are_at(local_id f, const Wanted& is_wanted) {
+    if (!search_)
+      sample();
+    const auto& solids = model_.topology().faces[f].solids;
+    return std::any_of(of_face_[f].begin(), of_face_[f].end(), [&](std::size_t k) {
+      const sizing::surface_sample& s = search_->samples()[k];
+      const double reach = thin * limit_(s.point);
+      return is_wanted(s.point) && ((solids[0] != no_id && search_->find(s, 0, reach, reach)) ||
+                                    (solids[1] != no_id && search_->find(s, 1, reach, reach)));
+    });
+  }
+
+  void sample() {
+    const sizing::sampling_limits most{.per_face = 1000, .least_halvings = 3};
+    const auto spacing = [this](const sizing::surface_sample& s) { return limit_(s.point); };
+    std::vector<sizing::surface_sample> samples;
+    for (std::size_t f = 0; f < model_.topology().faces.size(); ++f)
+      try {
+        const auto found = sizing::surface_sampler(model_, spacing, most).run(static_cast<local_id>(f));
+        samples.insert(samples.end(), found.begin(), found.end());
+      } catch (const geometry_error&) { // of a place where the kernel cannot evaluate the face
+      }
+    search_.emplace(std::move(samples), model_.topology());
+    of_face_.resize(model_.topology().faces.size());
+    for (std::size_t k = 0; k < search_->samples().size(); ++k)
+      of_face_[search_->samples()[k].face].push_back(k);
+  }
+
+  const any_geometry& model_;
+  any_sizing limit_;
+  std::optional<sizing::facing_search> search_;
+  std::vector<std::vector<std::size_t>> of_face_;
+  std::map<local_id, bool> thin_; ///< by face, of those asked for
+};
+
+/// A union that may be.
 struct joined_pair {
   local_id host = no_id, gone = no_id;
   loops_of_face loops;
@@ -70,7 +130,8 @@ public:
   face_joiner(editable_topology& topology, const limits& allowed, const uv_of_passage& uv)
       : topology_(topology), allowed_(allowed),
         triangles_(topology, uv, [&allowed](vec3 p) { return sag * allowed.length(p); }),
-        members_(topology.face_count()), charts_(topology.face_count()), smooth_(topology.curve_count()) {
+        thin_(topology.model(), allowed.length), members_(topology.face_count()),
+        charts_(topology.face_count()), smooth_(topology.curve_count()) {
     for (std::size_t f = 0; f < members_.size(); ++f)
       members_[f] = {static_cast<local_id>(f)};
   }
@@ -121,7 +182,8 @@ private:
     std::size_t count = 0;
     for (const auto& [ignored, f] : waiting)
       if (const auto width = may_be_joined(f) ? width_if_narrow(f) : std::nullopt)
-        count += join_to_best(f, *width, neighbours_of(f), found);
+        if (const auto neighbours = neighbours_of(f); !neighbours.empty() && !is_in_thin_wall(f))
+          count += join_to_first(f, *width, neighbours, found);
     return count;
   }
 
@@ -136,9 +198,17 @@ private:
     for (const auto& [length, c] : waiting)
       if (topology_.is_used(c)) {
         const auto passages = topology_.passages_of(c);
-        count += join_to_best(passages[0].face, length, {passages[1].face}, found);
+        const auto is_thin = [&](const passage& p) {
+          return thin_.are_near(topology_.at(p).own_face, topology_.middle(c));
+        };
+        if (std::none_of(passages.begin(), passages.end(), is_thin))
+          count += join_to_first(passages[0].face, length, {passages[1].face}, found);
       }
     return count;
+  }
+
+  bool is_in_thin_wall(local_id f) {
+    return std::any_of(members_[f].begin(), members_[f].end(), [&](local_id m) { return thin_.are_at(m); });
   }
 
   bool may_be_joined(local_id f) const {
@@ -196,8 +266,8 @@ private:
     return found;
   }
 
-  std::size_t join_to_best(local_id f, double length, const std::vector<local_id>& neighbours,
-                           std::vector<suppressed_detail>& found) {
+  std::size_t join_to_first(local_id f, double length, const std::vector<local_id>& neighbours,
+                            std::vector<suppressed_detail>& found) {
     for (const local_id g : neighbours)
       if (auto made = joined(f, g)) {
         found.push_back({suppressed_detail::kind::joined_face, made->gone,
@@ -218,6 +288,8 @@ private:
         first.name != second.name || first.solids != second.solids)
       return std::nullopt;
     const auto common = common_curves(f, g);
+    if (is_in_thin_wall(f) || is_in_thin_wall(g))
+      return std::nullopt;
     if (common.empty() ||
         !std::all_of(common.begin(), common.end(), [&](local_id c) { return is_smooth(c); }))
       return std::nullopt;
@@ -321,6 +393,7 @@ private:
   editable_topology& topology_;
   const limits& allowed_;
   face_triangles triangles_;
+  thin_walls thin_;
   std::vector<std::vector<local_id>> members_;         ///< by face
   std::vector<std::optional<composite_chart>> charts_; ///< by face
   std::vector<std::optional<bool>> smooth_;            ///< by curve
