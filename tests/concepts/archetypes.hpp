@@ -452,4 +452,14 @@ struct planes_as : geometry_as<G> {
 };
 // end
 
+// for geometry_model_with_members
+template <geometry_model_with_members G>
+struct members_as : geometry_as<G> {
+  explicit members_as(const G& held) : geometry_as<G>(held), known(held) {}
+  local_id face_at(local_id f, vec3 p) const { return known.face_at(f, p); }
+  local_id whole_face(local_id f) const { return known.whole_face(f); }
+  const G& known;
+};
+// end
+
 } // namespace dovetail::archetype

@@ -60,7 +60,9 @@ static_assert(communicator<archetype::communicator>);
 static_assert(std::constructible_from<any_communicator, archetype::communicator>);
 static_assert(surface_improver<archetype::surface_improver> && !improver<archetype::surface_improver, 3>);
 static_assert(!surface_improver<archetype::improver>);
-static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry>);
+static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry> &&
+              !geometry_model_with_members<archetype::geometry>);
+static_assert(geometry_model_with_members<archetype::members_as<any_geometry>>);
 static_assert(!calibrated_mesher<archetype::mesher> && !piece_sizing_mesher<archetype::mesher>);
 static_assert(!has_background_form<archetype::mesher>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);

@@ -12,6 +12,7 @@
 #include "dovetail/mesher/native.hpp"
 #include "dovetail/mesher/wraps.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/models/virtual_model.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/clock_watch.hpp"
 #include "dovetail/parallel/remembering.hpp"
@@ -297,6 +298,8 @@ struct asked : model_wraps<asked<G>, G> {};
 static_assert(geometry_model<asked<archetype::geometry>> &&
               !geometry_model_with_planes<asked<archetype::geometry>> &&
               geometry_model_with_planes<asked<plane_domain>>);
+static_assert(!geometry_model_with_members<asked<archetype::geometry>> &&
+              geometry_model_with_members<asked<virtual_model>>);
 template <class G>
 constexpr bool knows_volume = requires(const G& model) {
   model.volume();

@@ -176,7 +176,8 @@ private:
     for (const suppressed_detail& one : made_.suppressed()) {
       if (!(one.length >= 0 && one.length <= limit_))
         faults_.push_back("a detail is larger than the limit");
-      if (one.what == suppressed_detail::kind::narrow_face)
+      if (one.what == suppressed_detail::kind::narrow_face ||
+          one.what == suppressed_detail::kind::joined_face)
         ++gone[one.entity];
     }
     for (std::size_t f = 0; f < gone.size(); ++f)

@@ -69,28 +69,21 @@ public:
   /// Whether it is so anywhere at a face.
   bool are_at(local_id f) {
     const auto known = thin_.find(f);
-    return known != thin_.end() ? known->second
-                                : thin_.emplace(f, are_at(f, [](vec3) { return true; })).first->second;
-  }
-  /// Whether it is so near a place.
-  bool are_near(local_id f, vec3 place) {
-    constexpr double reach = 1.5; // limits
-    return are_at(f, [&](vec3 p) { return distance(p, place) <= reach * limit_(place); });
+    return known != thin_.end() ? known->second : thin_.emplace(f, is_thin(f)).first->second;
   }
 
 private:
   static constexpr double thin = 0.5; ///< limits
 
-  template <class Wanted>
-  bool are_at(local_id f, const Wanted& is_wanted) {
+  bool is_thin(local_id f) {
     if (!search_)
       sample();
     const auto& solids = model_.topology().faces[f].solids;
     return std::any_of(of_face_[f].begin(), of_face_[f].end(), [&](std::size_t k) {
       const sizing::surface_sample& s = search_->samples()[k];
       const double reach = thin * limit_(s.point);
-      return is_wanted(s.point) && ((solids[0] != no_id && search_->find(s, 0, reach, reach)) ||
-                                    (solids[1] != no_id && search_->find(s, 1, reach, reach)));
+      return (solids[0] != no_id && search_->find(s, 0, reach, reach)) ||
+             (solids[1] != no_id && search_->find(s, 1, reach, reach));
     });
   }
 
@@ -182,8 +175,7 @@ private:
     std::size_t count = 0;
     for (const auto& [ignored, f] : waiting)
       if (const auto width = may_be_joined(f) ? width_if_narrow(f) : std::nullopt)
-        if (const auto neighbours = neighbours_of(f); !neighbours.empty() && !is_in_thin_wall(f))
-          count += join_to_first(f, *width, neighbours, found);
+        count += join_to_first(f, *width, neighbours_of(f), found);
     return count;
   }
 
@@ -198,11 +190,7 @@ private:
     for (const auto& [length, c] : waiting)
       if (topology_.is_used(c)) {
         const auto passages = topology_.passages_of(c);
-        const auto is_thin = [&](const passage& p) {
-          return thin_.are_near(topology_.at(p).own_face, topology_.middle(c));
-        };
-        if (std::none_of(passages.begin(), passages.end(), is_thin))
-          count += join_to_first(passages[0].face, length, {passages[1].face}, found);
+        count += join_to_first(passages[0].face, length, {passages[1].face}, found);
       }
     return count;
   }
@@ -288,10 +276,10 @@ private:
         first.name != second.name || first.solids != second.solids)
       return std::nullopt;
     const auto common = common_curves(f, g);
-    if (is_in_thin_wall(f) || is_in_thin_wall(g))
-      return std::nullopt;
     if (common.empty() ||
         !std::all_of(common.begin(), common.end(), [&](local_id c) { return is_smooth(c); }))
+      return std::nullopt;
+    if (is_in_thin_wall(f) || is_in_thin_wall(g))
       return std::nullopt;
     const auto one = area_of(f), other = area_of(g);
     if (!one || !other)
