@@ -66,7 +66,7 @@ double least_angle_of(const any_geometry& model, double volume) {
 
 TEST_CASE("a gap between two edges that begin along each other begins where it is wide enough") {
   const any_geometry given = cad_model(hollow_and_block());
-  const virtual_model made(given, uniform_size(size_at_gaps));
+  const virtual_model made(given, uniform_size(size_at_gaps), {.share_of_joined = 0});
   CHECK(virtual_checks(made, given, 0.25 * size_at_gaps).faults() == "");
   CHECK(gaps_of(made) == 2);
   CHECK(made.summary().get("narrow_gaps") == 2);

@@ -45,9 +45,9 @@ namespace {
 
 constexpr double limit = 0.25;
 
-/// At size 1: narrower than a quarter is a detail.
+/// At size 1: narrower than a quarter is a detail. No faces are joined.
 virtual_model without_details(const any_geometry& given, double size = 1) {
-  virtual_model made(given, uniform_size(size));
+  virtual_model made(given, uniform_size(size), {.share_of_joined = 0});
   CHECK(virtual_checks(made, given, 0.25 * size).faults() == "");
   return made;
 }
@@ -511,7 +511,7 @@ TEST_CASE("triangles get small sizes along a strip of which one end is left out"
   const any_sizing of_details([](vec3 p) { return p.z < 3 ? 4.0 : 1.2; });
   const any_sizing given = uniform_size(2.5);
   const auto size_at_strip = [&](const any_geometry& drawn, int dimension) {
-    const virtual_model model(drawn, of_details);
+    const virtual_model model(drawn, of_details, {.share_of_joined = 0});
     REQUIRE(kinds_of(model) == std::vector{kind::narrow_end});
     return finer_at_details(any_geometry(model), given, {.dimension = dimension})({9.85, 9.85, 5});
   };

@@ -3,11 +3,13 @@
 #pragma once
 
 #include "dovetail/core/box_tree.hpp"
+#include "dovetail/core/error.hpp"
 #include "dovetail/core/nearest_point.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
 #include "dovetail/geometry/frame.hpp"
 #include "dovetail/models/plane_triangles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -97,8 +99,25 @@ public:
       return below;
     const auto [nearest, seen] = nearest_in_space(p);
     vec2 best = flat(seen);
+    try {
+      return projected(model, p, nearest, best);
+    } catch (const geometry_error&) { // of a place where the kernel cannot evaluate a face
+      return best;
+    }
+  }
+
+  /// The face whose surface is nearest, by the triangles.
+  local_id face_at(vec3 p) const { return triangles_[nearest_in_space(p).first].face; }
+
+private:
+  static constexpr std::size_t most_faces_tried = 3;
+  static constexpr double steepest =
+      0.05; ///< cosine to the plane below which a surface has no height over it
+
+  /// The same, begun at a triangle. `best` becomes the nearest of what was found.
+  vec2 projected(const any_geometry& model, vec3 p, std::size_t t, vec2& best) const {
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t t = nearest, tries = 0; tries < most_faces_tried; ++tries) {
+    for (std::size_t tries = 0; tries < most_faces_tried; ++tries) {
       const local_id face = triangles_[t].face;
       const vec2 own = model.project_to_face(face, p, own_at(t, best));
       const vec3 q = model.face_point(face, own);
@@ -115,14 +134,6 @@ public:
     return best; // between two surfaces
   }
 
-  /// The face whose surface is nearest, by the triangles.
-  local_id face_at(vec3 p) const { return triangles_[nearest_in_space(p).first].face; }
-
-private:
-  static constexpr std::size_t most_faces_tried = 3;
-  static constexpr double steepest =
-      0.05; ///< cosine to the plane below which a surface has no height over it
-
   struct place {
     vec2 own; ///< parameters on the face of the triangle
     surface_frame frame;
@@ -130,6 +141,13 @@ private:
 
   /// Where the surface of a triangle's face is over a point of the plane, if it is found near the triangle.
   std::optional<place> solved(const any_geometry& model, std::size_t t, vec2 uv) const {
+    try {
+      return solved_by_newton(model, t, uv);
+    } catch (const geometry_error&) { // of a place where the kernel cannot evaluate the face
+      return std::nullopt;
+    }
+  }
+  std::optional<place> solved_by_newton(const any_geometry& model, std::size_t t, vec2 uv) const {
     constexpr int most_steps = 12;
     constexpr double largest_step = 3;  // triangles
     constexpr double near_enough = 1e3; // roundings
@@ -174,20 +192,19 @@ private:
         {norm(corners[1] - corners[0]), norm(corners[2] - corners[1]), norm(corners[0] - corners[2])});
   }
 
-  bool is_steep(const surface_frame& frame) const {
-    const vec3 normal = cross(frame.du, frame.dv);
-    return !(std::abs(dot(normal, frame_.n)) > steepest * norm(normal));
-  }
+  bool is_steep(vec3 normal) const { return !(std::abs(dot(normal, frame_.n)) > steepest * norm(normal)); }
+  bool is_steep(const surface_frame& frame) const { return is_steep(cross(frame.du, frame.dv)); }
 
   /// The point of a surface, which is not steep, with derivatives by the plane's coordinates.
   surface_frame over_plane(const surface_frame& own) const {
     return with_normal(own.point, cross(own.du, own.dv));
   }
+  /// The same of a triangle; one that stands on edge is taken as level.
   surface_frame over_triangle(std::size_t t, vec2 uv) const {
+    const auto w = flat_.nearest_weights(t, uv);
     const auto& [a, b, c] = triangles_[t].space;
-    const vec3 normal = cross(b - a, c - a);
-    const vec3 level = frame_.origin + uv.x * frame_.u + uv.y * frame_.v;
-    return with_normal(level + (dot(a - level, normal) / dot(frame_.n, normal)) * frame_.n, normal);
+    const vec3 p = w[0] * a + w[1] * b + w[2] * c, normal = cross(b - a, c - a);
+    return is_steep(normal) ? surface_frame{p, frame_.u, frame_.v} : with_normal(p, normal);
   }
   surface_frame with_normal(vec3 p, vec3 normal) const {
     const double up = dot(normal, frame_.n);
