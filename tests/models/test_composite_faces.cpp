@@ -241,7 +241,30 @@ TEST_CASE("triangles of a mesh have the numbers of the faces that they are on") 
     CHECK(*std::min_element(count.begin(), count.end()) > 0);
     for (std::size_t v = 0; v < skeleton.points.size(); ++v)
       CHECK((skeleton.point_hosts[v].dimension != 2 || off_cube(skeleton.points[v]) < 1e-9));
-    const report middles = io::add_mid_nodes(solid.mesh, any_geometry(model), parallel::serial{}, {});
-    CHECK(middles.get("not_found") == 0);
   }
+}
+
+TEST_CASE("the middles of a mesh's edges are on the faces that were joined") {
+  const virtual_model model = joined(filleted_cube());
+  REQUIRE(joined_count(model) == 1);
+  const local_id fillet = model.suppressed()[0].entity;
+  const any_sizing fine_there([](vec3 p) { return std::min(1.5, 0.2 + std::hypot(p.x - 10, p.y - 10)); });
+  auto solid =
+      generate<3>(model, fine_there, parameters<>{}.with_mesher(mesher::tetgen{}).with_options(in_parts(1)));
+  REQUIRE(solid.failures.empty());
+  const report middles = io::add_mid_nodes(solid.mesh, any_geometry(model), parallel::serial{}, {});
+  CHECK(middles.get("not_found") == 0);
+  const auto& nodes = *solid.mesh.mid_nodes;
+  const auto& hosts = solid.mesh.skeleton.point_hosts;
+  int inside = 0, off = 0;
+  for (std::size_t k = 0; k < nodes.edges.size(); ++k) {
+    const auto& [a, b] = nodes.edges[k];
+    if (hosts[a] != host{2, fillet} || hosts[b] != host{2, fillet})
+      continue;
+    ++inside;
+    off += off_cube(nodes.points[k]) < 1e-9 ? 0 : 1;
+  }
+  CHECK(inside > 20);
+  CHECK(off <= middles.get("moved_back")); // so that no element is folded
+  CHECK(3 * off < inside);
 }

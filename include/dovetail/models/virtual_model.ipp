@@ -83,21 +83,25 @@ struct virtual_model::data {
       close_loops(model, composite);
   }
 
-  /// Members need not have a vertex at just the same point: what is missing at both ends is added all along
-  /// a curve.
+  /// Members need not have a vertex at just the same point: what is missing at the end of a passage to where
+  /// the next one starts is added all along its curve.
   void close_loops(const any_geometry& model, const virtual_topology::composite_face& composite) {
-    const auto& chart = composite.chart;
-    for (const auto& coedge : coedges[composite.host]) {
-      auto& curve = topology.curves[coedge.curve];
-      auto& missing = closing[composite.host].emplace_back();
-      double furthest = 0;
-      for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-        const vec3 p = model.face_point(coedge.own_face, own_uv(model, coedge, curve.t[end]));
-        const vec2 at = chart.flat(topology.vertices[curve.vertices[end]].point);
-        missing[end] = at - chart.flat(p);
-        furthest = std::max(furthest, distance(chart.point(model, at), p));
+    const auto& all = coedges[composite.host];
+    auto& missing = closing[composite.host];
+    missing.assign(all.size(), {});
+    const auto end_of = [&](const virtual_topology::virtual_coedge& coedge, bool at_start) {
+      const double t = topology.curves[coedge.curve].t[coedge.reversed == at_start ? 1 : 0];
+      return model.face_point(coedge.own_face, own_uv(model, coedge, t));
+    };
+    std::size_t first = 0;
+    for (const auto& loop : topology.faces[composite.host].loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const auto& coedge = all[first + i];
+        const vec3 here = end_of(coedge, false), next = end_of(all[first + (i + 1) % loop.size()], true);
+        missing[first + i][coedge.reversed ? 0 : 1] = composite.chart.flat(next) - composite.chart.flat(here);
+        topology.curves[coedge.curve].tolerance += distance(here, next);
       }
-      curve.tolerance += furthest;
+      first += loop.size();
     }
   }
 

@@ -25,7 +25,7 @@ namespace detail {
 
 using loops_of_face = std::vector<std::vector<virtual_coedge>>;
 
-inline constexpr double least_cosine = 0.35; ///< of a chart's triangles to its plane
+inline constexpr double least_cosine = 0.42; ///< of a chart's triangles to its plane
 
 inline vec3 area_vector(const charted_triangle& t) {
   return 0.5 * cross(t.space[1] - t.space[0], t.space[2] - t.space[0]);
@@ -286,7 +286,7 @@ private:
       return std::nullopt;
     const local_id host = *one >= *other ? f : g, gone = host == f ? g : f;
     auto loops = united(host, gone, common);
-    if (!loops)
+    if (!loops || !are_closed(*loops))
       return std::nullopt;
     auto chart = chart_of(host, gone, *loops);
     if (!chart)
@@ -337,6 +337,22 @@ private:
           return std::nullopt;
       }
     return made.empty() ? std::nullopt : std::optional(made);
+  }
+
+  /// Whether each passage ends where the next one starts, nearly: of members at details that were given up
+  /// they need not.
+  bool are_closed(const loops_of_face& loops) const {
+    constexpr double nearly = 1e-3; // of the limit
+    const auto end_of = [&](const virtual_coedge& coedge, bool at_start) {
+      return triangles_.point(coedge, topology_.curve(coedge.curve).t[coedge.reversed == at_start ? 1 : 0]);
+    };
+    for (const auto& loop : loops)
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const vec3 end = end_of(loop[k], false), next = end_of(loop[(k + 1) % loop.size()], true);
+        if (distance(end, next) > nearly * allowed_.length(end))
+          return false;
+      }
+    return true;
   }
 
   std::optional<composite_chart> chart_of(local_id host, local_id gone, const loops_of_face& loops) {
