@@ -76,7 +76,9 @@ private:
   geometry_topology named_;
 };
 
-virtual_model joined(const any_geometry& given, double size = 1, const virtual_options& options = {}) {
+/// However much faces turn.
+virtual_model joined(const any_geometry& given, double size = 1,
+                     const virtual_options& options = {.most_turn_deg = 360}) {
   virtual_model made(given, uniform_size(size), options);
   CHECK(virtual_checks(made, given, size).faults() == "");
   return made;
@@ -137,6 +139,14 @@ TEST_CASE("a fillet narrower than the size is one with a face beside it") {
   CHECK(!made.plane_of_face(whole));
 }
 
+TEST_CASE("a face that turns much within the size is not joined") {
+  const double turn = 57.29577951308232 / radius; // within a size of 1
+  CHECK(joined_count(joined(filleted_cube(), 1, {.most_turn_deg = 1.001 * turn})) == 1);
+  CHECK(joined_count(joined(filleted_cube(), 1, {.most_turn_deg = 0.999 * turn})) == 0);
+  CHECK(joined_count(joined(filleted_cube(), 1, {})) == 0);
+  CHECK_THROWS_AS(virtual_model(filleted_cube(), uniform_size(1), {.most_turn_deg = -1}), sizing_error);
+}
+
 TEST_CASE("points of faces that are one are on the model's, and are found again") {
   const any_geometry given = filleted_cube();
   const virtual_model made = joined(given);
@@ -184,11 +194,11 @@ TEST_CASE("beyond its boundary the surface goes on") {
 TEST_CASE("what is wide, sharp, wanted or of another group is not joined") {
   CHECK(joined_count(joined(filleted_cube(0.8))) == 0);
   CHECK(joined_count(joined(model_of(cube_with_edge<BRepFilletAPI_MakeChamfer>(0.5)))) == 0);
-  CHECK(joined_count(joined(filleted_cube(), 1, {.share_of_joined = 0})) == 0);
-  CHECK(joined_count(joined(filleted_cube(), 1, {.share_of_joined = 0.3})) == 0);
+  CHECK(joined_count(joined(filleted_cube(), 1, {.share_of_joined = 0, .most_turn_deg = 360})) == 0);
+  CHECK(joined_count(joined(filleted_cube(), 1, {.share_of_joined = 0.3, .most_turn_deg = 360})) == 0);
   CHECK(joined_count(joined(all_in_groups(filleted_cube()))) == 0);
   const local_id fillet = joined(filleted_cube()).suppressed()[0].entity;
-  CHECK(joined_count(joined(filleted_cube(), 1, {.kept_faces = {fillet}})) == 0);
+  CHECK(joined_count(joined(filleted_cube(), 1, {.most_turn_deg = 360, .kept_faces = {fillet}})) == 0);
   CHECK_THROWS_AS(virtual_model(filleted_cube(), uniform_size(1), {.share_of_joined = -1}), sizing_error);
 }
 

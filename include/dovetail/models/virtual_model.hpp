@@ -22,6 +22,8 @@ struct virtual_options {
          ///< go on along each other, where the surface goes there, back and there again
   double share_of_joined = 1;   ///< faces up to this share of the size wide, or with so short an edge between
                                 ///< them, are one with a face that they go on into smoothly; 0: none
+  double most_turn_deg = 40;    ///< a face that turns by more within that share of the size is not joined:
+                                ///< elements that need not follow its edges would cut its corner off
   double least_angle_deg = 40;  ///< what would leave a sharper edge between faces behind stays,
                                 ///< unless these are the walls of a slit: nothing is meshed there
   double least_corner_deg = 28; ///< what would leave a sharper corner of a face behind stays

@@ -67,9 +67,9 @@ struct virtual_model::data {
 
   /// Joins faces of a topology that was taken.
   void join(const any_geometry& model, virtual_topology::editable_topology& edited,
-            const virtual_topology::limits& allowed) {
+            const virtual_topology::limits& allowed, double most_turn_deg) {
     composites = virtual_topology::join_faces(
-        edited, allowed,
+        edited, allowed, most_turn_deg,
         [&](const virtual_topology::virtual_coedge& coedge, double t) { return own_uv(model, coedge, t); },
         suppressed);
     composite_of.assign(edited.face_count(), none);
@@ -194,6 +194,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
   sizing::checked_length(options.least_corner_deg, "the least angle of corners beside details");
   sizing::checked_length(options.share_of_folded, "the share of the size that folded faces have");
   sizing::checked_length(options.share_of_joined, "the share of the size that faces joined to others have");
+  sizing::checked_length(options.most_turn_deg, "the turn of faces that are joined");
   const auto up_to = [&](double share) {
     return virtual_topology::limits{[&size, share](vec3 p) { return share * size(p); },
                                     options.least_angle_deg, options.least_corner_deg, options.kept_faces};
@@ -214,7 +215,7 @@ DOVETAIL_INLINE virtual_model::virtual_model(any_geometry model, const any_sizin
   }
   made->take(model_, topology);
   if (options.share_of_joined > 0)
-    made->join(model_, topology, up_to(options.share_of_joined));
+    made->join(model_, topology, up_to(options.share_of_joined), options.most_turn_deg);
   data_ = std::move(made);
 }
 

@@ -21,13 +21,16 @@ struct composite_face {
 
 /// Joins a face with one that it goes on into smoothly, within 10 degrees all along, where one of the two is
 /// narrower than the limit everywhere or has no longer edges, or the edge between them is not longer. Not
-/// faces of different groups, names or solids, nor faces with seams or poles, nor where the whole could not
-/// be seen from one direction. The largest member keeps its number, the others have no loops any more.
-/// Appends the others to `found`. \param topology the topology, nothing of which is taken away any more after
-/// this \param allowed limits, and faces that stay \param uv where boundaries are in the parameter planes of
-/// the model's faces \param found those with another number now
+/// faces of different groups, names or solids, nor faces with seams or poles, nor those that turn by more
+/// than an angle within the limit, such as a fillet, nor where the whole could not be seen from one
+/// direction. The largest member keeps its number, the others have no loops any more. \param topology the
+/// topology, nothing of which is taken away any more after this \param allowed limits, and faces that stay
+/// \param most_turn_deg the angle, as curvature times the limit
+/// \param uv where boundaries are in the parameter planes of the model's faces
+/// \param found gets those with another number now
 std::vector<composite_face> join_faces(editable_topology& topology, const limits& allowed,
-                                       const uv_of_passage& uv, std::vector<suppressed_detail>& found);
+                                       double most_turn_deg, const uv_of_passage& uv,
+                                       std::vector<suppressed_detail>& found);
 
 } // namespace dovetail::virtual_topology
 

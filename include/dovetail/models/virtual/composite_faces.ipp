@@ -7,9 +7,8 @@
 #include "dovetail/mesh/element_angles.hpp"
 #include "dovetail/models/virtual/composite_faces.hpp"
 #include "dovetail/models/virtual/strip.hpp"
+#include "dovetail/models/virtual/walls_at_faces.hpp"
 #include "dovetail/remesh/constrained_triangulation.hpp"
-#include "dovetail/sizing/facing_search.hpp"
-#include "dovetail/sizing/surface_samples.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,56 +59,6 @@ inline std::optional<vec3> direction_of(const std::vector<charted_triangle>& tri
   return dot(most_oblique(n), n) >= least_cosine ? std::optional(n) : std::nullopt;
 }
 
-/// Where the wall behind a face, or in front of it, is thinner than half of the limit. Its two sides must be
-/// meshed alike there, which lines along both of them do best. The model is sampled at the first question.
-class thin_walls {
-public:
-  thin_walls(const any_geometry& model, const any_sizing& limit) : model_(model), limit_(limit) {}
-
-  /// Whether it is so anywhere at a face.
-  bool are_at(local_id f) {
-    const auto known = thin_.find(f);
-    return known != thin_.end() ? known->second : thin_.emplace(f, is_thin(f)).first->second;
-  }
-
-private:
-  static constexpr double thin = 0.5; ///< limits
-
-  bool is_thin(local_id f) {
-    if (!search_)
-      sample();
-    const auto& solids = model_.topology().faces[f].solids;
-    return std::any_of(of_face_[f].begin(), of_face_[f].end(), [&](std::size_t k) {
-      const sizing::surface_sample& s = search_->samples()[k];
-      const double reach = thin * limit_(s.point);
-      return (solids[0] != no_id && search_->find(s, 0, reach, reach)) ||
-             (solids[1] != no_id && search_->find(s, 1, reach, reach));
-    });
-  }
-
-  void sample() {
-    const sizing::sampling_limits most{.per_face = 1000, .least_halvings = 3};
-    const auto spacing = [this](const sizing::surface_sample& s) { return limit_(s.point); };
-    std::vector<sizing::surface_sample> samples;
-    for (std::size_t f = 0; f < model_.topology().faces.size(); ++f)
-      try {
-        const auto found = sizing::surface_sampler(model_, spacing, most).run(static_cast<local_id>(f));
-        samples.insert(samples.end(), found.begin(), found.end());
-      } catch (const geometry_error&) { // of a place where the kernel cannot evaluate the face
-      }
-    search_.emplace(std::move(samples), model_.topology());
-    of_face_.resize(model_.topology().faces.size());
-    for (std::size_t k = 0; k < search_->samples().size(); ++k)
-      of_face_[search_->samples()[k].face].push_back(k);
-  }
-
-  const any_geometry& model_;
-  any_sizing limit_;
-  std::optional<sizing::facing_search> search_;
-  std::vector<std::vector<std::size_t>> of_face_;
-  std::map<local_id, bool> thin_; ///< by face, of those asked for
-};
-
 /// A union that may be.
 struct joined_pair {
   local_id host = no_id, gone = no_id;
@@ -120,11 +69,12 @@ struct joined_pair {
 /// Joins faces, one pair after the other.
 class face_joiner {
 public:
-  face_joiner(editable_topology& topology, const limits& allowed, const uv_of_passage& uv)
-      : topology_(topology), allowed_(allowed),
+  face_joiner(editable_topology& topology, const limits& allowed, double most_turn_deg,
+              const uv_of_passage& uv)
+      : topology_(topology), allowed_(allowed), most_turn_(most_turn_deg / degrees_per_radian),
         triangles_(topology, uv, [&allowed](vec3 p) { return sag * allowed.length(p); }),
-        thin_(topology.model(), allowed.length), members_(topology.face_count()),
-        charts_(topology.face_count()), smooth_(topology.curve_count()) {
+        walls_(topology.model(), allowed.length), members_(topology.face_count()),
+        charts_(topology.face_count()), bent_(topology.face_count()), smooth_(topology.curve_count()) {
     for (std::size_t f = 0; f < members_.size(); ++f)
       members_[f] = {static_cast<local_id>(f)};
   }
@@ -196,7 +146,8 @@ private:
   }
 
   bool is_in_thin_wall(local_id f) {
-    return std::any_of(members_[f].begin(), members_[f].end(), [&](local_id m) { return thin_.are_at(m); });
+    return std::any_of(members_[f].begin(), members_[f].end(),
+                       [&](local_id m) { return walls_.are_thin(m); });
   }
 
   bool may_be_joined(local_id f) const {
@@ -282,7 +233,7 @@ private:
     if (is_in_thin_wall(f) || is_in_thin_wall(g))
       return std::nullopt;
     const auto one = area_of(f), other = area_of(g);
-    if (!one || !other)
+    if (!one || !other || is_bent(f) || is_bent(g))
       return std::nullopt;
     const local_id host = *one >= *other ? f : g, gone = host == f ? g : f;
     auto loops = united(host, gone, common);
@@ -305,6 +256,26 @@ private:
         area += norm(area_vector(t));
     }
     return area;
+  }
+
+  /// Whether a member turns by more within the limit than it may. It has triangles.
+  bool is_bent(local_id f) {
+    return std::any_of(members_[f].begin(), members_[f].end(), [&](local_id m) {
+      if (!bent_[m])
+        bent_[m] = turns_much(m);
+      return *bent_[m];
+    });
+  }
+  bool turns_much(local_id member) {
+    const auto& triangles = *triangles_.of_face(member);
+    try {
+      return std::any_of(triangles.begin(), triangles.end(), [&](const charted_triangle& t) {
+        const vec2 middle = (1.0 / 3) * (t.own[0] + t.own[1] + t.own[2]);
+        return topology_.model().face_curvature(member, middle) * allowed_.length(t.space[0]) > most_turn_;
+      });
+    } catch (const geometry_error&) { // of a place where the kernel cannot evaluate the face
+      return true;
+    }
   }
 
   /// The boundaries of both without what is common, as the first one runs; nothing where it is not told which
@@ -396,19 +367,21 @@ private:
 
   editable_topology& topology_;
   const limits& allowed_;
+  double most_turn_; ///< within the limit
   face_triangles triangles_;
-  thin_walls thin_;
+  walls_at_faces walls_;
   std::vector<std::vector<local_id>> members_;         ///< by face
   std::vector<std::optional<composite_chart>> charts_; ///< by face
+  std::vector<std::optional<bool>> bent_;              ///< by face of the model
   std::vector<std::optional<bool>> smooth_;            ///< by curve
 };
 
 } // namespace detail
 
 DOVETAIL_INLINE std::vector<composite_face> join_faces(editable_topology& topology, const limits& allowed,
-                                                       const uv_of_passage& uv,
+                                                       double most_turn_deg, const uv_of_passage& uv,
                                                        std::vector<suppressed_detail>& found) {
-  detail::face_joiner joiner(topology, allowed, uv);
+  detail::face_joiner joiner(topology, allowed, most_turn_deg, uv);
   joiner.run(found);
   return joiner.composites();
 }
