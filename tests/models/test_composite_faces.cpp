@@ -222,6 +222,28 @@ TEST_CASE("faces in one plane are one plane, but in a thin wall") {
     CHECK(std::abs(one.place.y - 5) == doctest::Approx(5)); // no upper or lower one
 }
 
+TEST_CASE("a fillet beside details that are given up is one with a face, or stays, and the model is one") {
+  for (const double width : {0.05, 0.1, 0.15}) {
+    CAPTURE(width);
+    const TopoDS_Shape filleted = cube_with_edge<BRepFilletAPI_MakeFillet>(radius);
+    BRepFilletAPI_MakeChamfer chamfered(filleted);
+    for (TopExp_Explorer edges(filleted, TopAbs_EDGE); edges.More(); edges.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(edges.Current());
+      const BRepAdaptor_Curve curve(edge);
+      if (curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter())).Z() > 9.9 &&
+          edge.Orientation() == TopAbs_FORWARD) {
+        chamfered.Add(width, edge); // and what goes on from there smoothly
+        break;
+      }
+    }
+    const virtual_model made = joined(model_of(chamfered.Shape()));
+    CHECK(made.summary().get("narrow_faces") > 0);
+    const auto shell = generate<2>(made, uniform_size(1), parameters<>{}.with_options(in_parts(1)));
+    CHECK(euler_characteristic(require_valid(shell)) == 2);
+    CHECK(shell.quality.min_face_deg > 12);
+  }
+}
+
 TEST_CASE("triangles of a mesh have the numbers of the faces that they are on") {
   const any_geometry given = filleted_cube();
   const virtual_model model = joined(given);
