@@ -12,6 +12,7 @@
 #include "dovetail/models/discrete/repair.hpp"
 #include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/plane_domain.hpp"
+#include "dovetail/models/virtual_model.hpp"
 #include "dovetail/parallel/any_communicator.hpp"
 #include "dovetail/parallel/threads.hpp"
 #include "dovetail/partition/any_distributed_partitioner.hpp"
@@ -62,7 +63,7 @@ static_assert(surface_improver<archetype::surface_improver> && !improver<archety
 static_assert(!surface_improver<archetype::improver>);
 static_assert(geometry_model<archetype::geometry> && !geometry_model_with_planes<archetype::geometry> &&
               !geometry_model_with_members<archetype::geometry>);
-static_assert(geometry_model_with_members<archetype::members_as<any_geometry>>);
+static_assert(geometry_model_with_members<archetype::members_as<virtual_model>>);
 static_assert(!calibrated_mesher<archetype::mesher> && !piece_sizing_mesher<archetype::mesher>);
 static_assert(!has_background_form<archetype::mesher>);
 static_assert(mesh_writer<archetype::writer> && mesh_reader<archetype::reader>);

@@ -21,13 +21,15 @@ struct composite_face {
 
 /// Joins a face with one that it goes on into smoothly, within 10 degrees all along, where one of the two is
 /// narrower than the limit everywhere or has no longer edges, or the edge between them is not longer. Not
-/// faces of different groups, names or solids, nor faces with seams or poles, nor those that turn by more
-/// than an angle within the limit, such as a fillet, nor where the whole could not be seen from one
-/// direction. The largest member keeps its number, the others have no loops any more. \param topology the
-/// topology, nothing of which is taken away any more after this \param allowed limits, and faces that stay
+/// faces of different groups, names or solids, nor faces with seams or poles, nor in thin walls, nor those
+/// that turn by more than an angle within the limit, such as a fillet, nor where the whole could not be seen
+/// from one direction. The largest member keeps its number, the others have no loops any more. Some thousand
+/// queries of the model for each face that may be joined.
+/// \param topology the topology, nothing of which is taken away any more after this
+/// \param allowed limits, and faces that stay
 /// \param most_turn_deg the angle, as curvature times the limit
 /// \param uv where boundaries are in the parameter planes of the model's faces
-/// \param found gets those with another number now
+/// \param found those with another number now are appended
 std::vector<composite_face> join_faces(editable_topology& topology, const limits& allowed,
                                        double most_turn_deg, const uv_of_passage& uv,
                                        std::vector<suppressed_detail>& found);

@@ -41,8 +41,21 @@ public:
   vec3 normal(const virtual_coedge& coedge, double t) const;
 
 private:
+  /// A point of a curve as a passage has it.
+  struct place {
+    vec2 uv;
+    vec3 point, normal; ///< of the face, the normal as long as the model has it
+  };
+  /// The same as all passages along the curve have it.
+  struct curve_sample {
+    double t = 0;
+    std::vector<place> places;
+  };
+
   std::optional<std::vector<double>> sampled(local_id c) const;
-  bool is_straight(const virtual_coedge& coedge, double from, double to) const;
+  curve_sample sample_at(const std::vector<passage>& passages, double t) const;
+  bool is_straight(const std::vector<passage>& passages, const curve_sample& from, const curve_sample& middle,
+                   const curve_sample& to) const;
   std::optional<std::vector<charted_triangle>> triangulated(local_id f);
 
   editable_topology topology_;

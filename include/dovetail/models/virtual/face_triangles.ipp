@@ -148,34 +148,59 @@ DOVETAIL_INLINE const std::optional<std::vector<double>>& face_triangles::of_cur
   return made;
 }
 
-DOVETAIL_INLINE bool face_triangles::is_straight(const virtual_coedge& coedge, double from, double to) const {
+DOVETAIL_INLINE face_triangles::curve_sample face_triangles::sample_at(const std::vector<passage>& passages,
+                                                                       double t) const {
+  curve_sample made{t, {}};
+  for (const passage& p : passages) {
+    const virtual_coedge& coedge = topology_.at(p);
+    const vec2 uv = uv_(coedge, t);
+    const surface_frame frame = topology_.model().face_frame(coedge.own_face, uv);
+    made.places.push_back({uv, frame.point, cross(frame.du, frame.dv)});
+  }
+  return made;
+}
+
+DOVETAIL_INLINE bool face_triangles::is_straight(const std::vector<passage>& passages,
+                                                 const curve_sample& from, const curve_sample& middle,
+                                                 const curve_sample& to) const {
   constexpr double share = 0.2; // of the sag of triangles
-  const any_geometry& model = topology_.model();
-  const double middle = 0.5 * (from + to);
-  const vec3 here = point(coedge, middle);
-  const vec2 between = 0.5 * (uv_(coedge, from) + uv_(coedge, to));
-  const double most = share * sag_(here);
-  return distance(here, midpoint(point(coedge, from), point(coedge, to))) <= most &&
-         distance(here, model.face_point(coedge.own_face, between)) <= most &&
-         angle_between(normal(coedge, from), normal(coedge, to)) <= detail::largest_turn;
+  for (std::size_t k = 0; k < passages.size(); ++k) {
+    const place &first = from.places[k], &here = middle.places[k], &last = to.places[k];
+    const double most = share * sag_(here.point);
+    if (distance(here.point, midpoint(first.point, last.point)) > most ||
+        angle_between(first.normal, last.normal) > detail::largest_turn)
+      return false;
+    const vec3 between =
+        topology_.model().face_point(topology_.at(passages[k]).own_face, 0.5 * (first.uv + last.uv));
+    if (!(distance(here.point, between) <= most))
+      return false;
+  }
+  return true;
 }
 
 DOVETAIL_INLINE std::optional<std::vector<double>> face_triangles::sampled(local_id c) const {
   constexpr std::size_t least_parts = 4, most_parts = 256;
+  constexpr double least_part = 1.0 / 4096; // of the parameters: at a kink no part is straight
   const auto& range = topology_.curve(c).t;
+  const double width = range[1] - range[0];
   const auto passages = topology_.passages_of(c);
-  std::vector<double> t;
+  std::vector<curve_sample> samples;
   for (std::size_t i = 0; i <= least_parts; ++i)
-    t.push_back(i < least_parts ? range[0] + (range[1] - range[0]) * static_cast<double>(i) / least_parts
-                                : range[1]);
-  for (std::size_t i = 0; i + 1 < t.size();)
-    if (std::all_of(passages.begin(), passages.end(),
-                    [&](const passage& p) { return is_straight(topology_.at(p), t[i], t[i + 1]); }))
+    samples.push_back(sample_at(
+        passages, i < least_parts ? range[0] + width * static_cast<double>(i) / least_parts : range[1]));
+  for (std::size_t i = 0; i + 1 < samples.size();) {
+    const double from = samples[i].t, to = samples[i + 1].t;
+    curve_sample middle = sample_at(passages, 0.5 * (from + to));
+    if (is_straight(passages, samples[i], middle, samples[i + 1]))
       ++i;
-    else if (t.size() > most_parts)
+    else if (samples.size() > most_parts || to - from < least_part * width)
       return std::nullopt;
     else
-      t.insert(t.begin() + static_cast<std::ptrdiff_t>(i) + 1, 0.5 * (t[i] + t[i + 1]));
+      samples.insert(samples.begin() + static_cast<std::ptrdiff_t>(i) + 1, std::move(middle));
+  }
+  std::vector<double> t;
+  for (const curve_sample& one : samples)
+    t.push_back(one.t);
   return t;
 }
 
