@@ -56,6 +56,7 @@ void suppression::apply(model_source& source) {
   given_size_ = source.size;
   as_drawn_.reset();
   kept_.clear();
+  joined_to_blame_ = 0;
   if (!options_.keep_all) {
     as_drawn_ = source.geometry;
     simplify(source);
@@ -91,7 +92,8 @@ void suppression::simplify(model_source& source) {
   virtual_options options{.kept_faces = kept_};
   if (options_.suppress)
     options.share_of_size = 1;
-  if (dimension_ == 2) // the faces are what is meshed, each for itself
+  // In D = 2 the faces are what is meshed, each for itself.
+  if (dimension_ == 2 || joined_to_blame_ > most_joined_to_blame)
     options.share_of_joined = 0;
   const any_sizing size = options_.suppress        ? any_sizing(uniform_size(*options_.suppress))
                           : source.size_of_details ? source.size_of_details
@@ -107,9 +109,18 @@ void suppression::simplify(model_source& source) {
   source.geometry = any_geometry(model);
 }
 
+bool suppression::is_joined(const any_geometry& model, const std::vector<local_id>& faces) {
+  for (std::size_t k = 0; k < model.topology().faces.size(); ++k)
+    if (const auto f = static_cast<local_id>(k), whole = model.whole_face(f);
+        whole != f && std::find(faces.begin(), faces.end(), whole) != faces.end())
+      return true;
+  return false;
+}
+
 bool suppression::keep(model_source& source, const std::vector<local_id>& faces) {
   if (!as_drawn_)
     return false;
+  joined_to_blame_ += is_joined(source.geometry, faces) ? 1 : 0;
   const auto is_new = [&](local_id f) { return std::find(kept_.begin(), kept_.end(), f) == kept_.end(); };
   if (kept_.size() < most_kept && std::any_of(faces.begin(), faces.end(), is_new)) {
     std::copy_if(faces.begin(), faces.end(), std::back_inserter(kept_), is_new);

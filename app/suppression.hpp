@@ -41,10 +41,13 @@ public:
   }
 
 private:
-  static constexpr std::size_t most_kept = 40; ///< faces; beyond, everything stays as it was drawn
+  static constexpr std::size_t most_kept = 40;   ///< faces; beyond, everything stays as it was drawn
+  static constexpr int most_joined_to_blame = 4; ///< times; beyond, no face is joined to another
 
   /// Makes the geometry again; false when nothing of it was simplified.
   bool keep(model_source& source, const std::vector<local_id>& faces);
+  /// Whether one of the faces is several of the model as drawn.
+  static bool is_joined(const any_geometry& model, const std::vector<local_id>& faces);
   void simplify(model_source& source);
   void fit_sizes(model_source& source) const;
   /// Larger than given by so much as makes room for the elements at details.
@@ -55,6 +58,7 @@ private:
   std::optional<any_geometry> as_drawn_; ///< when something was taken away
   any_sizing given_size_;                ///< before it was made to fit
   std::vector<local_id> kept_;
+  int joined_to_blame_ = 0; ///< how often joined faces were
 };
 
 } // namespace dovetail::app
