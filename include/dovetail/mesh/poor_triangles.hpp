@@ -19,10 +19,10 @@ std::string_view name_of_triangles(poor_cause cause);
 
 /// Finds the triangles of a piece that are of low quality, and the cause of each, the first of these that
 /// holds: `model_angle`, it is in an angle between two curves of its face, under twice the limit, or between
-/// two curves that meet in such a one; `interface_angle`, in one between two lines of which one at least is
-/// no curve of the model; `thin_wall`, a face is narrow there: each of its vertices is on a curve of the
-/// model, or inside and joined to two at most that are not; `thin_piece`, each is on the boundary of its
-/// piece; else `inside`. `thinnest_wall` is the least height of the bad ones of narrow faces.
+/// two curves that meet somewhere at less than 30 degrees; `interface_angle`, in one between two lines of
+/// which one at least is no curve of the model; `thin_wall`, a face is narrow there: each of its vertices is
+/// on a curve of the model, or inside and joined to two at most that are not; `thin_piece`, each is on the
+/// boundary of its piece; else `inside`. `thinnest_wall` is the least height of the bad ones of narrow faces.
 /// Linear, and n log n in the corners beside such triangles.
 /// Throws nothing but for a lack of memory.
 /// \param piece as `check_piece` finds it right; elements of different tags are of different faces

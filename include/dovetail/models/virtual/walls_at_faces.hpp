@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/geometry/any_geometry.hpp"
+#include "dovetail/sizing/concepts.hpp"
 #include "dovetail/sizing/facing_search.hpp"
 #include "dovetail/sizing/surface_samples.hpp"
 
