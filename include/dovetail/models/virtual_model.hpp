@@ -21,7 +21,8 @@ struct virtual_options {
       1; ///< the same, if it is larger and the other is not 0, for faces between two that
          ///< go on along each other, where the surface goes there, back and there again
   double share_of_joined = 1;   ///< faces up to this share of the size wide, or with so short an edge between
-                                ///< them, are one with a face that they go on into smoothly; 0: none
+                                ///< them, are one with a face that they go on into smoothly; 0: none, as
+                                ///< D = 2 wants it, where faces are what is meshed
   double most_turn_deg = 40;    ///< a face that turns by more within that share of the size is not joined:
                                 ///< elements that need not follow its edges would cut its corner off
   double least_angle_deg = 40;  ///< what would leave a sharper edge between faces behind stays,

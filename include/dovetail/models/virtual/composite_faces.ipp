@@ -173,9 +173,13 @@ private:
         return false;
     const double same = face(one.own_face).reversed == face(other.own_face).reversed ? 1 : -1;
     const auto& t = *triangles_.of_curve(c);
-    return std::all_of(t.begin(), t.end(), [&](double at) {
-      return angle_between(triangles_.normal(one, at), same * triangles_.normal(other, at)) <= smooth;
-    });
+    try {
+      return std::all_of(t.begin(), t.end(), [&](double at) {
+        return angle_between(triangles_.normal(one, at), same * triangles_.normal(other, at)) <= smooth;
+      });
+    } catch (const geometry_error&) { // of a place where the kernel cannot evaluate a face
+      return false;
+    }
   }
 
   std::vector<local_id> common_curves(local_id f, local_id g) const {
@@ -237,12 +241,16 @@ private:
       return std::nullopt;
     const local_id host = *one >= *other ? f : g, gone = host == f ? g : f;
     auto loops = united(host, gone, common);
-    if (!loops || !are_closed(*loops))
+    try {
+      if (!loops || !are_closed(*loops))
+        return std::nullopt;
+      auto chart = chart_of(host, gone, *loops);
+      if (!chart)
+        return std::nullopt;
+      return joined_pair{host, gone, *std::move(loops), *std::move(chart)};
+    } catch (const geometry_error&) { // likewise
       return std::nullopt;
-    auto chart = chart_of(host, gone, *loops);
-    if (!chart)
-      return std::nullopt;
-    return joined_pair{host, gone, *std::move(loops), *std::move(chart)};
+    }
   }
 
   /// Of its triangles; nothing of a face that has none.
