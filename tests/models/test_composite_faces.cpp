@@ -137,6 +137,14 @@ TEST_CASE("a fillet narrower than the size is one with a face beside it") {
   CHECK(whole != fillet);
   CHECK(made.whole_face(whole) == whole);
   CHECK(!made.plane_of_face(whole));
+  CHECK(made.summary().get("largest") == 0); // nothing is left out
+
+  const virtual_model twice = joined(made);
+  CHECK(joined_count(twice) == 0);
+  CHECK(twice.whole_face(fillet) == whole);
+  CHECK(twice.face_at(whole, place) == made.face_at(whole, place));
+  const double middle = 10 - radius + radius / std::numbers::sqrt2;
+  CHECK(twice.face_at(whole, {middle, middle, 5}) == fillet);
 }
 
 TEST_CASE("a face that turns much within the size is not joined") {
@@ -275,6 +283,12 @@ TEST_CASE("triangles of a mesh have the numbers of the faces that they are on") 
     CHECK(*std::min_element(count.begin(), count.end()) > 0);
     for (std::size_t v = 0; v < skeleton.points.size(); ++v)
       CHECK((skeleton.point_hosts[v].dimension != 2 || off_cube(skeleton.points[v]) < 1e-9));
+    std::vector<bool> has_triangle(skeleton.points.size(), false); // of the point's own face
+    for (std::size_t s = 0; s < skeleton.sides.size(); ++s)
+      for (const local_id v : skeleton.sides[s])
+        has_triangle[v] = has_triangle[v] || skeleton.point_hosts[v].id == skeleton.side_hosts[s];
+    for (std::size_t v = 0; v < skeleton.points.size(); ++v)
+      CHECK((skeleton.point_hosts[v].dimension != 2 || has_triangle[v]));
   }
 }
 

@@ -38,7 +38,7 @@ struct suppression_counts {
   std::size_t narrow_gaps = 0;  ///< between two edges of a solid, where they begin
   std::size_t short_edges = 0;  ///< edges that are vertices
   std::size_t joined_faces = 0; ///< faces that are one with another
-  double largest = 0;           ///< the widest of these faces, or the longest of these edges
+  double largest = 0;           ///< the widest face, or the longest edge, of those that are left out
 
   using fields = field_list<&suppression_counts::narrow_faces, &suppression_counts::narrow_ends,
                             &suppression_counts::narrow_gaps, &suppression_counts::short_edges,
@@ -80,9 +80,9 @@ public:
   double project_to_curve(local_id c, vec3 p, double seed) const;
   std::optional<surface_frame> plane_of_face(local_id f) const;
 
-  /// The face of the wrapped model that is at a point of face f: f, but for faces that are several.
+  /// The face of the model as drawn that is at a point of face f: f, but for faces that are several.
   local_id face_at(local_id f, vec3 p) const;
-  /// The face that one of the wrapped model is a part of: f, but for faces that were joined to another.
+  /// The face that one of the model as drawn is a part of: f, but for faces that were joined to another.
   local_id whole_face(local_id f) const;
 
   /// What it does not have, in the order in which it was given up.

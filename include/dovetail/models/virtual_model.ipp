@@ -283,12 +283,13 @@ DOVETAIL_INLINE std::optional<surface_frame> virtual_model::plane_of_face(local_
 
 DOVETAIL_INLINE local_id virtual_model::face_at(local_id f, vec3 p) const {
   const auto* joined = data_->composite(f);
-  return joined ? joined->chart.face_at(p) : f;
+  return model_.face_at(joined ? joined->chart.face_at(p) : f, p);
 }
 
 DOVETAIL_INLINE local_id virtual_model::whole_face(local_id f) const {
-  const std::size_t k = data_->composite_of.empty() ? data::none : data_->composite_of[f];
-  return k == data::none ? f : data_->composites[k].host;
+  const local_id whole = model_.whole_face(f);
+  const std::size_t k = data_->composite_of.empty() ? data::none : data_->composite_of[whole];
+  return k == data::none ? whole : data_->composites[k].host;
 }
 
 DOVETAIL_INLINE double virtual_model::project_to_curve(local_id c, vec3 p, double seed) const {
@@ -317,7 +318,8 @@ DOVETAIL_INLINE report virtual_model::summary() const {
        : one.what == suppressed_detail::kind::narrow_gap ? counts.narrow_gaps
        : one.what == suppressed_detail::kind::short_edge ? counts.short_edges
                                                          : counts.joined_faces);
-    counts.largest = std::max(counts.largest, one.length);
+    if (one.what != suppressed_detail::kind::joined_face)
+      counts.largest = std::max(counts.largest, one.length);
   }
   report made;
   made.name = "virtual topology";

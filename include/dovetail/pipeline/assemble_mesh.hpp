@@ -13,7 +13,8 @@
 
 namespace dovetail::detail {
 
-/// Gives triangles, and points inside of faces, the numbers of the faces' members that they are on.
+/// Gives triangles the numbers of the faces' members that their middles are on, and points inside of faces
+/// the lowest one of those of their triangles.
 inline void name_members(const any_geometry& model, fine_skeleton& skeleton) {
   const std::size_t faces = model.topology().faces.size();
   std::vector<bool> is_several(faces, false);
@@ -23,15 +24,18 @@ inline void name_members(const any_geometry& model, fine_skeleton& skeleton) {
   if (std::find(is_several.begin(), is_several.end(), true) == is_several.end())
     return;
   auto& of_sides = skeleton.side_hosts.own();
+  auto& of_points = skeleton.point_hosts.own();
+  std::vector<local_id> lowest(of_points.size(), no_id);
   for (std::size_t s = 0; s < of_sides.size(); ++s)
     if (const local_id f = of_sides[s]; f != no_id && is_several[f]) {
       const auto& [a, b, c] = skeleton.sides[s];
       of_sides[s] = model.face_at(f, (skeleton.points[a] + skeleton.points[b] + skeleton.points[c]) / 3);
+      for (const local_id v : {a, b, c})
+        lowest[v] = lowest[v] == no_id ? of_sides[s] : std::min(lowest[v], of_sides[s]);
     }
-  auto& of_points = skeleton.point_hosts.own();
   for (std::size_t v = 0; v < of_points.size(); ++v)
-    if (host& on = of_points[v]; on.dimension == 2 && is_several[on.id])
-      on.id = model.face_at(on.id, skeleton.points[v]);
+    if (of_points[v].dimension == 2 && lowest[v] != no_id)
+      of_points[v].id = lowest[v];
 }
 
 template <int D>
