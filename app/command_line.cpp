@@ -196,6 +196,9 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--report", options.report, "JSON file for figures about the run");
   command.add_option("--trace", options.trace,
                      "JSON file for what ran when and where: for ui.perfetto.dev and dovetail simulate");
+  command.add_option("--rank-group", options.rank_group,
+                     "Under mpirun: how many ranks of a machine compute in one process, with the workers of "
+                     "all; 1: each by itself (default: all of them)");
   command.add_option(
       "--spool", options.spool,
       "Folder for what a run keeps to go on from, on a disk of each rank's own (default: in --out)");
@@ -352,11 +355,16 @@ struct parser {
         ->delimiter(',')
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{10000000}))
         ->default_str("1,2,4, ..., 512");
+    command
+        .add_option("--workers-per-rank", simulate.machine.workers_per_rank,
+                    "Workers of a process that computes, as of a machine's ranks together")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     command.add_option("--cores", simulate.machine.cores, "Cores that they share (default: one each)")
         ->check(CLI::NonNegativeNumber);
     command
         .add_option("--turns-cost", simulate.machine.turns_cost,
-                    "By what fraction each further worker on a core makes work longer")
+                    "By what fraction each further rank on a core makes what all do longer")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
     auto* nodes = command
@@ -643,18 +651,19 @@ int run_command_line(int argc, char** argv) {
   if (!shared)
     return refused != nullptr ? chosen() : run_supervised(chosen, clean_up, line.stopped);
   const auto on_ranks = [&] {
-    return run_on_ranks(
-        [&](const relayed_rank& rank) {
-          line.mesh.network = rank.network;
-          line.mesh.partition_desk = rank.partition_desk;
-          return chosen();
-        },
-        {.of_rank =
-             [&] {
-               if (refused == nullptr)
-                 unfinished.remove_of_rank();
-             },
-         .of_all = clean_up});
+    return run_on_ranks({line.mesh.command_line, largest_rank_group(line.mesh)},
+                        [&](const relayed_rank& rank) {
+                          line.mesh.network = rank.network;
+                          line.mesh.computes_for = rank.ranks;
+                          line.mesh.partition_desk = rank.partition_desk;
+                          return chosen();
+                        },
+                        {.of_rank =
+                             [&] {
+                               if (refused == nullptr)
+                                 unfinished.remove_of_rank();
+                             },
+                         .of_all = clean_up});
   };
   return run_guarded(on_ranks, help);
 }

@@ -21,6 +21,7 @@
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/distributed/by_elements.hpp"
 #include "dovetail/distributed/made_aside.hpp"
+#include "dovetail/distributed/processes.hpp"
 #include "dovetail/files/finishing_pass.hpp"
 #include "dovetail/files/write_trace.hpp"
 #include "dovetail/parallel/available_processors.hpp"
@@ -171,7 +172,6 @@ public:
   }
 
   int run() {
-    require_same(options_.command_line);
     if (leads_ && !options_.quiet)
       lines_.emplace(stderr);
     parameters_.on_progress = callbacks();
@@ -300,9 +300,14 @@ private:
       finished.record(figures_.files, touching_.options().join);
   }
 
-  /// Each rank reads the model by itself.
+  /// Each rank that computes reads the model by itself, with its own workers.
   any_executor executor_for_model() const {
-    return options_.network ? any_executor(parallel::serial{}) : policies_.executor;
+    if (!options_.network)
+      return policies_.executor;
+    const int workers = workers_of_rank(options_);
+    if (workers == 1)
+      return parallel::serial{};
+    return parallel::processes{.worker_count = workers};
   }
 
   /// The volume of the model as drawn, which takes as long as a stage. There are stages that leave a
@@ -390,10 +395,12 @@ private:
   /// Of the rank that writes the report; a batch system starts the others alike.
   void warn_of_binding() {
     const int processors = parallel::available_processors();
-    if (options_.network && options_.workers > processors)
-      figures_.warnings.push_back("the " + std::to_string(options_.workers) + " workers of a rank have " +
-                                  std::to_string(processors) +
-                                  " processors: mpirun binds ranks unless it is given --bind-to none");
+    if (options_.network && options_.workers > 0 && workers_of_rank(options_) > processors)
+      figures_.warnings.push_back(
+          "the " + std::to_string(workers_of_rank(options_)) + " workers of " +
+          (options_.computes_for > 1 ? std::to_string(options_.computes_for) + " ranks" : "a rank") +
+          " have " + std::to_string(processors) +
+          " processors: mpirun binds ranks unless it is given --bind-to none");
   }
 
   void note_sizes(const distributed_simplicial_mesh<D>& mesh) {

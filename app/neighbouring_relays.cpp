@@ -18,14 +18,6 @@
 namespace dovetail::app {
 namespace {
 
-/// The same for processes that know each other by number.
-std::string place_of_numbers() {
-  std::string boot;
-  std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
-  std::error_code ignored;
-  return boot + std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
-}
-
 std::vector<pid_t> children_of(pid_t process) {
   std::vector<pid_t> children;
   std::error_code problem;
@@ -50,6 +42,13 @@ bool has_ended(int descriptor, std::chrono::milliseconds at_most = {}) {
 }
 
 } // namespace
+
+std::string place_of_numbers() {
+  std::string boot;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
+  std::error_code ignored;
+  return boot + std::filesystem::read_symlink("/proc/self/ns/pid", ignored).string();
+}
 
 neighbouring_relays::~neighbouring_relays() {
   for (const processes& of_rank : ranks_)

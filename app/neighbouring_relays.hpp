@@ -17,6 +17,9 @@
 
 namespace dovetail::app {
 
+/// The same for processes that know each other by number.
+std::string place_of_numbers();
+
 /// Thrown where this relay goes no further since another one is gone.
 struct relay_lost {
   int rank;

@@ -41,7 +41,8 @@ struct mesh_options {
   std::vector<std::string> only;    ///< subdomains that are meshed, as numbers or ranges; empty: all
   bool alone = false;               ///< boundaries are made around these alone: `choose_for_alone`
   std::string decomposition;        ///< how the domain becomes subdomains; empty: the default
-  int workers = 0;                  ///< 0: as many as the machine has; on several ranks one each
+  int workers = 0;                  ///< 0: as many as the machine has; on several ranks one each, of a group
+                                    ///< no more than it has processors
   std::string mesher;
   std::string partitioner;
   std::string simplifier;
@@ -67,11 +68,14 @@ struct mesh_options {
       improve_again; ///< after redistribution by elements, what ranks have: the strategy; empty: the default
   bool ghosts = false; ///< of each rank, in formats that have them
   int order = 1;       ///< of the elements in the files: 1 or 2
-  std::string spool;   ///< folder on a disk of each rank's own; empty: in `out`
+  std::optional<int>
+      rank_group;    ///< ranks of a machine that compute as one: at most; 0: all; none: the default
+  std::string spool; ///< folder on a disk of each rank's own; empty: in `out`
   bool resume = false;
   bool force = false;
   bool quiet = false;
   std::optional<any_communicator> network = {}; ///< of the ranks, where there are several
+  int computes_for = 1;                         ///< so many of the ranks that mpirun has started
   int partition_desk = -1;                      ///< the socket to that of this rank's relay; -1: no relay
   std::string command_line = {};                ///< which is the same for all of them
 };

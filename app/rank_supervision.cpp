@@ -6,8 +6,10 @@
 #include "mpi_segments.hpp"
 #include "mpirun_rank.hpp"
 #include "neighbouring_relays.hpp"
+#include "rank_groups.hpp"
 #include "rank_partitioner.hpp"
 #include "relay_loop.hpp"
+#include "stop_request.hpp"
 #include "supervision.hpp"
 
 #include "dovetail/core/bytes.hpp"
@@ -31,6 +33,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -251,9 +254,54 @@ int relay_of_rank(supervisor& computing, const relay_sockets& sockets, const kep
   }
 }
 
+/// From now on this process and its workers may use these.
+void use_processors(const std::vector<std::int32_t>& processors) {
+  cpu_set_t bound;
+  CPU_ZERO(&bound);
+  for (const std::int32_t p : processors)
+    if (p < CPU_SETSIZE)
+      CPU_SET(p, &bound);
+  ::sched_setaffinity(0, sizeof bound, &bound); // where that is refused it stays as it is
+}
+
+/// Until the leader of this rank's group is done. Whatever ends it before, the relay knows.
+int await_leader(network_by_relay& network, int leader) {
+  try {
+    while (awaited(network).peer != leader) {
+    }
+  } catch (const communication_error&) { // the leader may have been asked to stop first
+    if (!stop_was_requested())
+      throw;
+    return exit_stopped;
+  } catch (const cancelled&) {
+    return exit_stopped;
+  }
+  return exit_ok;
+}
+
+/// The command for all of a group on its leader; the others wait.
+int compute_in_group(network_by_relay network, int partition_desk, const ranks_to_run& ranks,
+                     const std::function<int(const relayed_rank&)>& command) {
+  auto [groups, early] = meet(network, introduction(), ranks.group, ranks.command_line);
+  const int own = network.rank(), leader = groups.leader_of_rank[static_cast<std::size_t>(own)];
+  if (own != leader)
+    return await_leader(network, leader);
+  const std::vector<int> group = groups.group_of(own);
+  if (group.size() > 1)
+    use_processors(groups.processors[static_cast<std::size_t>(own)]);
+  const int code = command({network_of_leaders(network, groups, std::move(early)), partition_desk,
+                            static_cast<int>(group.size())});
+  if (code == exit_ok)
+    for (const int member : group)
+      if (member != own)
+        network.send(member, group_tags::over, {});
+  return code;
+}
+
 } // namespace
 
-int run_on_ranks(const std::function<int(const relayed_rank&)>& command, const clean_up_on_ranks& clean_up) {
+int run_on_ranks(const ranks_to_run& ranks, const std::function<int(const relayed_rank&)>& command,
+                 const clean_up_on_ranks& clean_up) {
   const auto [of_relay, of_computing] = connected_sockets();
   const bool first = rank_of_mpirun().rank == 0;
   const kept_error_stream said(!first);
@@ -269,7 +317,8 @@ int run_on_ranks(const std::function<int(const relayed_rank&)>& command, const c
       return exit_failure;
     end_with_parent(relay);
     said.redirect();
-    return command({network_by_relay(of_computing.messages), of_computing.partition_desk});
+    return compute_in_group(network_by_relay(of_computing.messages), of_computing.partition_desk, ranks,
+                            command);
   }
   of_computing.close();
   if (place_of_mpirun().rank == 0)
@@ -288,7 +337,8 @@ int run_on_ranks(const std::function<int(const relayed_rank&)>& command, const c
 
 #else
 
-int run_on_ranks(const std::function<int(const relayed_rank&)>&, const clean_up_on_ranks&) {
+int run_on_ranks(const ranks_to_run&, const std::function<int(const relayed_rank&)>&,
+                 const clean_up_on_ranks&) {
   throw command_line_error(
       "this program was built without MPI and cannot run on several ranks; start it without "
       "mpirun, or build it where Boost.MPI is");

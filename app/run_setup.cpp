@@ -4,10 +4,13 @@
 #include "named_policies.hpp"
 #include "output_formats.hpp"
 #include "policies.hpp"
+#include "rank_partitioner.hpp"
 
 #include "dovetail/core/number_text.hpp"
 #include "dovetail/core/sequence.hpp"
+#include "dovetail/parallel/available_processors.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -107,7 +110,33 @@ void check_alone(const mesh_options& options) {
         "leave it out");
 }
 
+/// Ranks that each have to be there for themselves.
+bool needs_each_rank(const mesh_options& options) {
+  return options.executor == "serial" ||
+         (!options.rank_partitioner.empty() && options.rank_partitioner != rank_partitioner_names().front());
+}
+
+void check_rank_group(const mesh_options& options) {
+  if (!options.rank_group)
+    return;
+  if (*options.rank_group < 0)
+    throw command_line_error("--rank-group: " + std::to_string(*options.rank_group) + " is negative");
+  if (*options.rank_group != 1 && needs_each_rank(options))
+    throw command_line_error(
+        "--rank-group: with --executor serial, or a library for --rank-partitioner, each rank computes by "
+        "itself; leave it out");
+}
+
 } // namespace
+
+int largest_rank_group(const mesh_options& options) {
+  return options.rank_group ? std::max(0, *options.rank_group) : needs_each_rank(options) ? 1 : 0;
+}
+
+int workers_of_rank(const mesh_options& options) {
+  return options.workers > 0 ? options.workers * options.computes_for
+                             : std::min(options.computes_for, parallel::available_processors());
+}
 
 template <int D>
 policies_of<D> make_policies_of(const mesh_options& options) {
@@ -123,8 +152,10 @@ policies_of<D> make_policies_of(const mesh_options& options) {
   auto mesher = make_mesher<D>(options.mesher);
   if (options.executor == "threads")
     mesher = mesher.for_threads();
-  auto executor = make_executor(options.executor, options.workers, mesher.name(), mesher.actual_traits(),
-                                options.network);
+  check_rank_group(options);
+  const bool on_ranks = options.network && options.workers >= 0;
+  auto executor = make_executor(options.executor, on_ranks ? workers_of_rank(options) : options.workers,
+                                mesher.name(), mesher.actual_traits(), options.network);
   auto surface_mesher = make_surface_mesher(options.surface_mesher);
   if (D == 2 && !options.surface_mesher.empty())
     throw command_line_error("--surface-mesher: with --dimension 2 the mesher of triangles is --mesher");

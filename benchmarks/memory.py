@@ -75,7 +75,7 @@ def measure(driver, model, size, ranks, options, folder, limit):
     command = [driver, "mesh", model, "--size", repr(size), "--format", "none", "--workers", "1", "--quiet",
                "--out", os.path.join(folder, "out"), "--report", report] + options
     if ranks > 1:
-        command = ["mpirun", "-n", str(ranks)] + command
+        command = ["mpirun", "-n", str(ranks)] + command + ["--rank-group", "1"]
     end = time.monotonic() + limit
     peak = together = 0
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,

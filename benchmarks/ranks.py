@@ -2,8 +2,9 @@
 """The same mesh by worker processes and by ranks: benchmarks/run ranks [MODEL] [option...]
 
 A table of wall and processor time, beside the run without MPI that has two workers, of the stages in which tasks take nearly
-all the time beside that run with one worker, and the share of a processor that the busiest relay took. Options: --ranks 2,4,7, --repeats N (the table has the fastest of them), --size S or
---elements N, and those of `dovetail mesh`.
+all the time beside that run with one worker, and the share of a processor that the busiest relay took. Ranks are run twice:
+as one group, and each by itself (--rank-group 1). Options: --ranks 2,4,7, --repeats N (the table has the fastest of them),
+--size S or --elements N, and those of `dovetail mesh`.
 """
 import argparse
 import json
@@ -75,6 +76,7 @@ def main():
     runs = {ONE_WORKER: mesh + ["--workers", "1"], TWO_WORKERS: mesh + ["--workers", "2"]}
     for ranks in given.ranks.split(","):
         runs[f"{ranks} ranks"] = ["mpirun", "-n", ranks] + mesh
+        runs[f"{ranks} ranks, each by itself"] = ["mpirun", "-n", ranks] + mesh + ["--rank-group", "1"]
     best = {}
     for _ in range(given.repeats):
         for name, command in runs.items():

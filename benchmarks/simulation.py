@@ -2,14 +2,14 @@
 """How far the simulator is to be believed: benchmarks/run simulation [MODEL] [option...]
 
 A mesh is made by one process with as many workers as the machine has processors, with a trace; from it `dovetail simulate`
-says how long so many ranks would take on these processors, and then so many ranks make the mesh. A table of both and of the
-error, for the whole and for the decomposition (what comes before the pieces are meshed, but for reading the model).
+says how long so many ranks would take on these processors, and then so many ranks make the mesh, as one group and each by
+itself (--rank-group 1). A table of both and of the error, for the whole and for the decomposition (what comes before the pieces
+are meshed, but for reading the model).
 
 Where there are more ranks than processors, so many single processes that make the mesh at once say by how much work takes
 longer for each further process on a processor: that is --turns-cost.
 
-Options: --ranks 1,2,4, --latency S of a message (the relays look for one every millisecond), --turns-cost C to give what is
-measured else, --repeats N (of each the fastest counts), --traced-workers N (default: as many as processors), --size S or
+Options: --ranks 1,2,4,7, --latency S of a message, --turns-cost C to give what is measured else, --repeats N (of each the fastest counts), --traced-workers N (default: as many as processors), --size S or
 --elements N, and those of `dovetail mesh`.
 """
 import argparse
@@ -63,14 +63,14 @@ def fastest(command, repeats, trace):
     return best
 
 
-def simulated(driver, trace, ranks, machine):
-    """Seconds of the whole and of the decomposition for each number of ranks."""
-    lines = subprocess.run([driver, "simulate", str(trace), "--workers", ",".join(map(str, ranks))] + machine, check=True,
-                           capture_output=True, text=True).stdout.splitlines()
+def simulated(driver, trace, workers, in_a_rank, machine):
+    """Seconds of the whole and of the decomposition."""
+    lines = subprocess.run([driver, "simulate", str(trace), "--workers", str(workers), "--workers-per-rank", str(in_a_rank)]
+                           + machine, check=True, capture_output=True, text=True).stdout.splitlines()
     scheme, decomposition, besides = (
-        [float(cell) for cell in next(line for line in lines if line.strip().startswith(name)).split()[-len(ranks):]]
+        float(next(line for line in lines if line.strip().startswith(name)).split()[-1])
         for name in ("Entire scheme", "Domain decomposition", "Reading and finishing"))
-    return list(zip(map(sum, zip(scheme, besides)), decomposition))
+    return scheme + besides, decomposition
 
 
 def at_once(command, count):
@@ -92,8 +92,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("model")
-    parser.add_argument("--ranks", default="1,2,4")
-    parser.add_argument("--latency", default="1e-3")
+    parser.add_argument("--ranks", default="1,2,4,7")
+    parser.add_argument("--latency", default="1e-4")
     parser.add_argument("--turns-cost", type=float)
     parser.add_argument("--repeats", type=int, default=1)
     parser.add_argument("--traced-workers", type=int, default=len(os.sched_getaffinity(0)))
@@ -112,16 +112,21 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         trace = pathlib.Path(folder) / "trace.json"
         _, mesh_hash = fastest(mesh + ["--workers", str(given.traced_workers)], given.repeats, trace)
-        expected = simulated(driver, trace, ranks, machine)
         print(f"{json.loads(trace.read_text())['otherData']['elements']:,.0f} elements, simulated with {' '.join(machine)}\n")
         print("| ranks | simulated, s | measured, s | error, % | decomposition: simulated, s | measured, s | error, % |")
         print("|--:|--:|--:|--:|--:|--:|--:|")
-        for count, times in zip(ranks, expected):
-            measured, its_hash = fastest(["mpirun", "-n", str(count)] + single, given.repeats, trace)
-            if its_hash != mesh_hash:
-                sys.exit("the meshes differ")
-            cells = [f"{s:.2f} | {m:.2f} | {100 * (s / m - 1):+.0f}" for s, m in zip(times, measured)]
-            print(f"| {count} | {' | '.join(cells)} |", flush=True)
+        traced_run = pathlib.Path(folder) / "traced.json"
+        trace.replace(traced_run)
+        for count in ranks:
+            for name, in_a_rank, options in (("", count, []), (", each by itself", 1, ["--rank-group", "1"])):
+                if count == 1 and in_a_rank == 1 and options:
+                    continue
+                expected = simulated(driver, traced_run, count, in_a_rank, machine)
+                measured, its_hash = fastest(["mpirun", "-n", str(count)] + mesh + options, given.repeats, trace)
+                if its_hash != mesh_hash:
+                    sys.exit("the meshes differ")
+                cells = [f"{s:.2f} | {m:.2f} | {100 * (s / m - 1):+.0f}" for s, m in zip(expected, measured)]
+                print(f"| {count}{name} | {' | '.join(cells)} |", flush=True)
 
 
 main()

@@ -5,7 +5,7 @@ driver=$1
 source "$(dirname "$0")/expectations.sh"
 cd "$sandbox" || exit 1
 file=$inputs/cube.step
-mesh=(mesh "$file" --size 0.5 --subdomains 2 --report report.json)
+mesh=(mesh "$file" --size 0.5 --subdomains 2 --report report.json --rank-group 1) # each rank reads it
 
 # The unit cube, and many points of no use, with which reading takes a while.
 write_step() {

@@ -7,7 +7,8 @@ mpirun=$2
 source "$(dirname "$0")/expectations.sh"
 cd "$sandbox" || exit 1
 write_cube >"$inputs/cube.off"
-mesh=(mesh "$inputs/cube.off" --size 0.08 --subdomains 6 --report report.json)
+# Each rank computes by itself where nothing else is said, so that they have something to tell each other.
+mesh=(mesh "$inputs/cube.off" --size 0.08 --subdomains 6 --report report.json --rank-group 1)
 
 # on_ranks <number> <folder> <arguments...>: sets $status.
 on_ranks() {
@@ -93,6 +94,30 @@ if "$driver" mesh --help | grep -q "vtkhdf"; then
   [[ ! -e $sandbox/several/out/unfinished ]] || fault "unfinished files are left"
 fi
 
+# As one group, and in groups: the first of each computes, the others wait.
+own=${#mesh[@]}
+for ranks_and_group in "3 0" "4 2" "7 3"; do
+  read -r ranks group <<<"$ranks_and_group"
+  fresh several
+  on_ranks "$ranks" several "${mesh[@]:0:own-1}" "$group" --format vtu,msh --workers 1
+  ((status == 0)) || fault "exit code is $status"
+  [[ $(files_of several) == "$(files_of alone)" ]] || fault "other files than with one rank"
+  [[ $(figure executor several) == ranks && $(figure workers several) == "$ranks" ]] || fault "the report tells of other workers"
+  [[ $(grep -c "^The mesh is in" "$sandbox/stdout") == 1 ]] || fault "not one summary"
+  nothing_left several
+done
+fresh several
+on_ranks 3 several "${mesh[@]:0:own-2}" --format vtu,msh # no more workers than processors
+processors=$(nproc)
+[[ $(figure workers several) == $((processors < 3 ? processors : 3)) ]] || fault "the report tells of other workers"
+[[ $(files_of several) == "$(files_of alone)" ]] || fault "other files than with one rank"
+what="two ranks of a group that are bound to a processor each"
+if "$mpirun" --version | grep -q "(Open MPI) 4" && ((processors > 1)); then
+  fresh several
+  (cd several && "$mpirun" --bind-to core -n 2 "$driver" "${mesh[@]:0:own-2}" --format vtu,msh >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  [[ $(figure workers several) == 2 && $(files_of several) == "$(files_of alone)" ]] || fault "not two workers, or other files"
+fi
+
 # 2. An error that all meet is said once; other commands know nothing of ranks.
 one_line() {
   ((status == $1)) || fault "exit code is $status, not $1"
@@ -103,21 +128,29 @@ one_line() {
 fresh several
 on_ranks 3 several mesh "$inputs/none.off"
 one_line 1 "none.off: there is no such file"
+on_ranks 3 several mesh "$inputs/none.off" --rank-group 1
+one_line 1 "none.off: there is no such file"
 on_ranks 3 several mesh --nonsense
 one_line 2 "--nonsense"
 on_ranks 3 several "${mesh[@]}" --executor threads
 one_line 2 "--executor"
+on_ranks 3 several "${mesh[@]:0:own-1}" 2 --executor serial
+one_line 2 "--rank-group: with --executor serial"
+on_ranks 3 several "${mesh[@]:0:own-1}" -1
+one_line 2 "--rank-group: -1 is negative"
 on_ranks 3 several "${mesh[@]}" --out /proc/none
 one_line 1 "/proc/none"
 on_ranks 2 several models
 ((status == 0)) && [[ $(grep -c "^orbiter" "$sandbox/stdout") == 2 ]] || fault "not each rank lists the models"
 
 # Ranks that differ, and a program that another MPI has started.
-what="two ranks with different options"
-(cd several && "$mpirun" -n 1 "$driver" "${mesh[@]}" : -n 1 "$driver" "${mesh[@]}" --force >"$sandbox/stdout" 2>"$sandbox/stderr")
-status=$?
-((status == 1)) || fault "exit code is $status, not 1"
-grep -q "^dovetail: rank 1: this rank starts from '.*--force', and rank 0 from" "$sandbox/stderr" || fault "the line does not say what differs"
+for group in 1 2; do
+  what="two ranks with different options, in groups of $group"
+  (cd several && "$mpirun" -n 1 "$driver" "${mesh[@]:0:own-1}" $group : -n 1 "$driver" "${mesh[@]:0:own-1}" $group --force >"$sandbox/stdout" 2>"$sandbox/stderr")
+  status=$?
+  ((status == 1)) || fault "exit code is $status, not 1"
+  grep -q "^dovetail: rank 1: this rank starts from '.*--force', and rank 0 from" "$sandbox/stderr" || fault "the line does not say what differs"
+done
 for variables in "PMI_RANK=0 PMI_SIZE=2" "SLURM_PROCID=0 SLURM_STEP_NUM_TASKS=2"; do
   what="$variables without mpirun"
   (cd several && timeout 1000 env $variables "$driver" "${mesh[@]}" >"$sandbox/stdout" 2>"$sandbox/stderr")
@@ -128,7 +161,7 @@ done
 
 # Libraries that partition on all ranks, called by the relays. Their parts hang on the number of ranks, and on nothing else.
 cut=(mesh "$inputs/cube.off" --size 0.06 --subdomains 6 --ranks 3 --redistribute by-elements --improve-again=none --format pvtu
-  --report report.json)
+  --report report.json) # as one group, where the library does not need each rank
 fresh gathered
 on_ranks 3 gathered "${cut[@]}"
 ((status == 0)) || fault "exit code is $status"
@@ -156,7 +189,7 @@ for library in ptscotch parmetis; do
 done
 
 # 3. A run that is killed goes on with another number of ranks.
-long=(mesh "$inputs/cube.off" --size 0.028 --subdomains 8 --report report.json)
+long=(mesh "$inputs/cube.off" --size 0.028 --subdomains 8 --report report.json --rank-group 1)
 fresh whole
 on_ranks 1 whole "${long[@]}" --workers 2
 ((status == 0)) || fault "exit code is $status"
@@ -191,9 +224,11 @@ resume_on() {
 mpi_is_unfinished=false
 "$mpirun" --version | grep -q "(Open MPI) 6.0.0rc" && mpi_is_unfinished=true
 
+# In one group (0) the first computes, and the last waits.
 for victim in first last; do
   for stage in planning partition intersection; do
-    start_until 3 "$stage" "${long[@]}" # its line comes at its end
+    group=$([[ $stage == partition ]] && echo 0 || echo 1)
+    start_until 3 "$stage" "${long[@]:0:${#long[@]}-1}" "$group" # its line comes at its end
     if [[ $victim == first ]]; then
       kill -SEGV "$(computing | head -n 1)"
     else

@@ -3,7 +3,7 @@
 # two one line tells, all ends soon, and the next run goes on with other ranks. A worker costs nothing but time.
 #   check_rank_faults.sh <driver> <mpirun> [all]
 # Each stage is tried with each victim, on 2, 4 and 7 ranks in turn, and a run goes on from what the one before has left;
-# with "all" each on each number of ranks from the beginning to the end.
+# with "all" each on each number of ranks from the beginning to the end. Of 4 ranks two compute, of 7 three; the others wait.
 driver=$1
 mpirun=$2
 all=${3:-}
@@ -73,7 +73,7 @@ kill_in() {
   what="$ranks ranks: $victim of rank $rank killed in stage $stage"
   : >"$sandbox/stderr"
   rm -f "$sandbox/progress" && mkfifo "$sandbox/progress"
-  (cd several && exec "$mpirun" -n "$ranks" "$driver" "$@" >"$sandbox/stdout" 2>"$sandbox/progress" </dev/null) &
+  (cd several && exec "$mpirun" -n "$ranks" "$driver" "$@" --rank-group "${group[ranks]}" >"$sandbox/stdout" 2>"$sandbox/progress" </dev/null) &
   process=$!
   exec 9<"$sandbox/progress"
   while IFS= read -r -t 100 -u 9 line; do
@@ -152,6 +152,7 @@ status=$?
 cat "$sandbox/stderr"
 
 numbers=(2 4 7)
+group=([2]=1 [3]=1 [4]=2 [7]=3)
 tried=0
 for victim in relay computing worker; do
   fresh several

@@ -131,7 +131,7 @@ TEST_CASE("What one does for all takes its time and that of telling them, howeve
   CHECK(run.seconds == doctest::Approx(run.stages[0].once));
 }
 
-TEST_CASE("Workers who share cores are slower by as much") {
+TEST_CASE("Ranks who share cores take turns with tasks, and are slower in what all do") {
   simulated_machine machine = without_delays(8);
   machine.cores = 2;
   CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(8));
@@ -139,11 +139,31 @@ TEST_CASE("Workers who share cores are slower by as much") {
   alike.stages[0].seconds_alike = 3;
   CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(12));
   machine.turns_cost = 0.1; // three more on each core
-  CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(8 * 1.3));
+  CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(8));
   CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(12 * 1.3));
   machine.cores = 16;
   CHECK(simulate(alike, machine).stages[0].alike == doctest::Approx(3));
   CHECK(simulate(tasks(16, 1), machine).seconds == doctest::Approx(2));
+}
+
+TEST_CASE("A rank of several workers does once what all ranks do, and sends itself nothing") {
+  simulated_machine machine = without_delays(8);
+  machine.cores = 2;
+  machine.workers_per_rank = 4; // two ranks on two cores
+  workload work = tasks(16, 1);
+  work.stages[0].seconds_alike = 3;
+  CHECK(simulate(work, machine).seconds == doctest::Approx(3 + 8));
+  machine.workers_per_rank = 3; // three of them
+  CHECK(simulate(work, machine).seconds == doctest::Approx(4.5 + 8));
+  simulated_machine slow = slow_network;
+  slow.workers = slow.workers_per_rank = 4;
+  slow.granted_ahead = 2;
+  const auto alone = simulate(tasks(8, 1, 49), slow);
+  CHECK(alone.seconds == doctest::Approx(2));
+  CHECK(alone.stages[0].link == 0);
+  slow.workers_per_rank = 2; // one other rank: it gives the results of two workers, and is told all
+  CHECK(simulate(tasks(8, 1, 49), slow).stages[0].link > 4);
+  CHECK_THROWS_AS(simulate(work, {.workers_per_rank = 0}), usage_error);
 }
 
 TEST_CASE("For any tasks the time is between the bounds of list scheduling") {

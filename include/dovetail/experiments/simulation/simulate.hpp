@@ -21,11 +21,12 @@ namespace dovetail::simulation {
 /// Times are seconds, the bandwidth is in bytes per second. The defaults are of a network of its time: 2
 /// microseconds, 10 gigabytes per second.
 struct simulated_machine {
-  std::int64_t workers = 1;      ///< each a rank of its own; the first one is also the manager
-  std::int64_t cores = 0;        ///< that they share; 0: one for each
-  double turns_cost = 0;         ///< by what fraction each further worker on a core makes work longer
-  double latency = 2e-6;         ///< of a message
-  double bandwidth = 1e10;       ///< of each worker's link, each way
+  std::int64_t workers = 1;          ///< of all ranks
+  std::int64_t workers_per_rank = 1; ///< at most; a worker of the first rank is also the manager
+  std::int64_t cores = 0;  ///< that they share: tasks are run by as many workers at most; 0: one for each
+  double turns_cost = 0;   ///< by what fraction each further rank on a core makes its work longer
+  double latency = 2e-6;   ///< of a message
+  double bandwidth = 1e10; ///< of each worker's link, each way
   double request_seconds = 5e-6; ///< the manager's work for a task that is done and the next grant
   int granted_ahead = 2;         ///< tasks that a worker has, the one it is at included
 };
@@ -64,18 +65,23 @@ struct message_bytes {
   static constexpr double part = 8;           ///< of each rank, where all that they gave is joined
 };
 
-/// By how much workers that share cores are slower, when so many of them work.
-inline double slowdown(const simulated_machine& machine, std::int64_t working) {
-  if (machine.cores == 0 || working <= machine.cores)
+inline std::int64_t ranks_of(const simulated_machine& machine) {
+  return (machine.workers + machine.workers_per_rank - 1) / machine.workers_per_rank;
+}
+
+/// By how much ranks that share cores are slower when all do the same.
+inline double slowdown(const simulated_machine& machine) {
+  const std::int64_t ranks = ranks_of(machine);
+  if (machine.cores == 0 || ranks <= machine.cores)
     return 1;
-  const double on_a_core = static_cast<double>(working) / static_cast<double>(machine.cores);
+  const double on_a_core = static_cast<double>(ranks) / static_cast<double>(machine.cores);
   return on_a_core * (1 + machine.turns_cost * (on_a_core - 1));
 }
 
 /// All get a message of the manager over a binomial tree: those who have it send it on, one copy after the
 /// other, so the manager itself sends as many as there are rounds.
 inline double tell(const simulated_machine& machine, double bytes, simulated_times& times) {
-  const double rounds = std::ceil(std::log2(static_cast<double>(machine.workers)));
+  const double rounds = std::ceil(std::log2(static_cast<double>(ranks_of(machine))));
   const double sending = rounds * (message_bytes::header + bytes) / machine.bandwidth;
   times.link += sending;
   return sending + rounds * machine.latency;
@@ -102,17 +108,17 @@ private:
 };
 
 /// One batch. Each worker has some tasks in the beginning, dealt in turn without a word, and asks for another
-/// for each that is done. Results stay with their worker until it is told that nothing is left; then it sends
-/// them to the manager, who tells all of them to all. The manager's own worker needs no messages.
+/// for each that is done. Results stay with their rank until its worker is told that nothing is left; then it
+/// sends them to the manager, who tells all of them to all ranks. The manager's own rank needs no messages.
 /// O(tasks log workers)
 class batch_simulation {
 public:
   batch_simulation(const std::vector<simulated_task>& tasks, const simulated_machine& machine)
       : tasks_(tasks), machine_(machine), to_manager_(machine), from_manager_(machine),
-        slowdown_(slowdown(machine, working())), workers_(static_cast<std::size_t>(working())) {}
+        workers_(static_cast<std::size_t>(working())) {}
 
   void add_to(simulated_times& times) {
-    to_manager_.pass(0, static_cast<double>(machine_.workers - working()) * message_bytes::header);
+    to_manager_.pass(0, static_cast<double>(ranks_of(machine_) - working_ranks()) * message_bytes::header);
     for (int ahead = 0; ahead < machine_.granted_ahead; ++ahead)
       for (std::size_t w = 0; w < workers_.size() && next_ < tasks_.size(); ++w)
         start(w, 0);
@@ -123,9 +129,10 @@ public:
       if (!is_end)
         answer(time, worker);
       else
-        gathered = std::max(gathered, worker == 0 ? time : to_manager_.pass(time, bytes_given_by(worker)));
+        gathered =
+            std::max(gathered, is_managers(worker) ? time : to_manager_.pass(time, bytes_given_by(worker)));
     }
-    double joined = static_cast<double>(machine_.workers) * message_bytes::part;
+    double joined = static_cast<double>(ranks_of(machine_)) * message_bytes::part;
     for (const simulated_task& task : tasks_)
       joined += task.bytes + message_bytes::outcome;
     const double seconds = gathered + tell(machine_, joined, times);
@@ -152,22 +159,30 @@ private:
 
   /// Workers that get a task.
   std::int64_t working() const {
-    return std::min<std::int64_t>(machine_.workers, static_cast<std::int64_t>(tasks_.size()));
+    const auto some = std::min<std::int64_t>(machine_.workers, static_cast<std::int64_t>(tasks_.size()));
+    return machine_.cores == 0 ? some : std::min(some, machine_.cores);
+  }
+  std::int64_t working_ranks() const {
+    return std::min((working() + machine_.workers_per_rank - 1) / machine_.workers_per_rank,
+                    ranks_of(machine_));
+  }
+  bool is_managers(std::size_t worker) const {
+    return worker < static_cast<std::size_t>(machine_.workers_per_rank);
   }
   double bytes_given_by(std::size_t worker) const { return message_bytes::header + workers_[worker].bytes; }
 
   void start(std::size_t number, double told) {
     const simulated_task& task = tasks_[next_++];
     worker_state& worker = workers_[number];
-    worker.free = std::max(worker.free, told) + task.seconds * slowdown_;
+    worker.free = std::max(worker.free, told) + task.seconds;
     ++worker.unanswered;
     worker.bytes += task.bytes + message_bytes::outcome;
-    busy_ += task.seconds * slowdown_;
+    busy_ += task.seconds;
     events_.push({worker.free, number, false});
   }
 
   void answer(double asked, std::size_t number) {
-    const bool is_manager = number == 0;
+    const bool is_manager = is_managers(number);
     manager_ = std::max(manager_, is_manager ? asked : to_manager_.pass(asked, message_bytes::request)) +
                machine_.request_seconds;
     managing_ += machine_.request_seconds;
@@ -183,7 +198,6 @@ private:
   const simulated_machine& machine_;
   shared_link to_manager_;
   shared_link from_manager_;
-  double slowdown_;
   std::vector<worker_state> workers_;
   std::priority_queue<event, std::vector<event>, std::greater<>> events_ = {};
   std::size_t next_ = 0;
@@ -196,13 +210,14 @@ private:
 
 /// Throws `usage_error` for a machine that cannot be.
 inline simulated_run simulate(const workload& work, const simulated_machine& machine) {
-  if (machine.workers < 1 || machine.cores < 0 || machine.granted_ahead < 1 || !(machine.turns_cost >= 0) ||
-      !(machine.latency >= 0) || !(machine.bandwidth > 0) || !(machine.request_seconds >= 0))
+  if (machine.workers < 1 || machine.workers_per_rank < 1 || machine.cores < 0 || machine.granted_ahead < 1 ||
+      !(machine.turns_cost >= 0) || !(machine.latency >= 0) || !(machine.bandwidth > 0) ||
+      !(machine.request_seconds >= 0))
     throw usage_error("a simulated machine needs workers, a bandwidth, and times that are not negative");
   simulated_run run;
   for (const simulated_stage& stage : work.stages) {
     simulated_times& times = run.stages.emplace_back(simulated_times{stage.stage});
-    times.alike = stage.seconds_alike * detail::slowdown(machine, machine.workers);
+    times.alike = stage.seconds_alike * detail::slowdown(machine);
     for (const simulated_task& task : stage.once)
       times.once += task.seconds + detail::tell(machine, task.bytes, times);
     for (const auto& batch : stage.batches)
