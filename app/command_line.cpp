@@ -154,9 +154,11 @@ void add_paper_options(CLI::App& command, mesh_options& options) {
              "Whether lines are divided otherwise where an interface face has a small angle");
   add_switch("--local-repartition", options.local_repartition,
              "Whether interfaces are moved where remeshing makes an angle of theirs small");
-  command.add_flag("--paper", options.paper,
-                   "The method as printed: --partitioner metis --simplifier paper --background-improver none "
-                   "--weights equal, the three above off; what is given stays");
+  command.add_flag(
+      "--paper", options.paper,
+      "The method as printed: --partitioner metis --simplifier paper --background-improver none "
+      "--weights equal, the three above off, and graphs of any size partitioned at once; what is "
+      "given stays");
 }
 
 void add_order_option(CLI::App& command, mesh_options& options) {

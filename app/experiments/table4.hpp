@@ -26,8 +26,9 @@ inline experiment table4() {
                {"Remeshing of subdomain boundaries", "s", 2, {{"/remeshing"}}, {seconds_of({"skeleton"})}},
                {"Subdomains merged away", "", 0, {{"/merged"}}, {{"/merges"}}},
                {"Subdomains merged into one, at most", "", 0, {{"/largest"}}, {{"/largest_merged"}}}},
-      .notes = {"Lines that cross are refined before anything is merged, and the time of that is the "
-                "intersection's."}};
+      .notes = {"Of ours, the intersection's time is also that of measuring interface angles and of local "
+                "repartition. Lines that cross are refined before anything is merged, which takes time of "
+                "the remeshing."}};
 }
 
 } // namespace dovetail::app::experiments

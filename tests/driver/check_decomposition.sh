@@ -115,6 +115,7 @@ expect_success "${shown[@]}" --partitioner metis --simplifier paper --background
 hash=$(figure mesh_hash)
 expect_success "${shown[@]}" --paper
 [[ $(figure mesh_hash) == "$hash" ]] || fault "--paper is not its choices"
+[[ $(figure weight_bound) == null ]] || fault "--paper has a bound of $(figure weight_bound)"
 expect_success "${shown[@]}" --paper --partitioner metis:2
 [[ $(figure partitioner) == metis:2 ]] || fault "--paper takes back what was given"
 expect_usage_error "--segment-matching: with --dimension 2 there are no faces" \

@@ -1,6 +1,7 @@
 #include "dovetail/decomposition/decompose.hpp"
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/simplification/paper.hpp"
+#include "dovetail/simplification/side_shape.hpp"
 #include "dovetail/simplification/simplify.hpp"
 #include "dovetail/simplification/simplify_coupled.hpp"
 #include "simplification/naive_simplify.hpp"
@@ -9,8 +10,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 using namespace dovetail;
 using namespace dovetail_test;
@@ -292,4 +296,31 @@ TEST_CASE("a wrong number of weights is refused") {
   const std::vector<double> weights(5, 1.0);
   CHECK_THROWS_AS(simplify<2>(mesh, mesh_duals<2>(mesh, {.element_weights = weights}), simplifier::paper{}),
                   usage_error);
+}
+
+TEST_CASE(
+    "The shape of a side is its smallest corner, of an edge the smallest angle of a triangle at its ends") {
+  // A right triangle of 30 and 60 degrees, and an equilateral one on its longer leg.
+  const double leg = std::sqrt(3.0);
+  simplicial_mesh<2> triangles{{{0, 0, 0}, {leg, 0, 0}, {0, 1, 0}, {leg / 2, -1.5, 0}},
+                               {{0, 1, 2}, {1, 0, 3}}};
+  const auto edges = build_sides(triangles);
+  const auto of_edges = side_shapes(triangles, edges);
+  for (std::size_t s = 0; s < edges.size(); ++s) {
+    const auto [a, b] = edges.vertices[s];
+    const bool has_smallest = a == 1 || b == 1; // the corner of 30 degrees
+    const bool of_equilateral_alone = a == 3 || b == 3;
+    CHECK(of_edges[s] == doctest::Approx(of_equilateral_alone || !has_smallest ? 60 : 30));
+  }
+  simplicial_mesh<3> tetrahedron{{{0, 0, 0}, {leg, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}};
+  const auto faces = build_sides(tetrahedron);
+  const auto of_faces = side_shapes(tetrahedron, faces);
+  for (std::size_t s = 0; s < faces.size(); ++s) {
+    const auto& face = faces.vertices[s];
+    const auto has = [&](local_id v) { return std::find(face.begin(), face.end(), v) != face.end(); };
+    const double expected = !has(0)   ? 2 * std::asin(std::sqrt(2.0) / 4) * 180 / std::numbers::pi
+                            : !has(1) ? 45
+                                      : 30;
+    CHECK(of_faces[s] == doctest::Approx(expected));
+  }
 }

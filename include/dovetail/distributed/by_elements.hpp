@@ -1,5 +1,5 @@
 /// @file
-/// The redistributor of the paper (sections 4.2 and 4.3): elements migrate, so that the ranks of a solver are
+/// The redistributor of the paper (section 4): elements migrate, so that the ranks of a solver are
 /// even, whatever the pieces were, and what was an interface becomes interior where that can be.
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
 /// Improves the pieces of a finished mesh once more, each inside its boundary: after redistribution by
-/// elements, what was at an interface when it was meshed is inside now (paper, section 4.4).
+/// elements, what was at an interface when it was meshed is inside now (paper, section 4).
 #pragma once
 
 #include "dovetail/core/progress.hpp"
