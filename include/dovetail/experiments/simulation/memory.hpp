@@ -9,13 +9,13 @@
 namespace dovetail::simulation {
 
 /// Bytes that a rank was measured to need, its computing process and its workers together; tetrahedra of
-/// `mesher::tetgen` (`benchmarks/run memory`). The ranks of a node have the skeleton together. Without them
-/// is what MPI takes.
+/// `mesher::native` (`benchmarks/run memory`). The ranks of a node have the skeleton together. What MPI takes
+/// is not in it.
 struct rank_memory {
-  double program = 37e6;           ///< of the program itself
-  double background_element = 587; ///< for each element of the background mesh
-  double piece_element = 274;      ///< of the largest piece, in each worker
-  double skeleton_side = 40;       ///< once on a node
+  double program = 23e6;           ///< of the program itself
+  double background_element = 539; ///< for each element of the background mesh
+  double piece_element = 146;      ///< of the largest piece, in each worker
+  double skeleton_side = 71;       ///< once on a node
 
   /// Of a node with so many ranks, if each of their workers is at the largest piece.
   double of_node(const mesh_sizes& sizes, std::int64_t ranks, std::int64_t workers_of_each) const {
