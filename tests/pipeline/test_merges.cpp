@@ -13,6 +13,7 @@
 #include "dovetail/partition/greedy.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/generate.hpp"
+#include "dovetail/pipeline/given_up.hpp"
 #include "dovetail/pipeline/rounds.hpp"
 #include "dovetail/simplification/none.hpp"
 #include "dovetail/sizing/uniform.hpp"
@@ -257,6 +258,7 @@ TEST_CASE(
   CHECK(testing::has(account.warnings[0], "16 subdomains were too many, so 8 were asked for: "));
   CHECK(testing::has(account.warnings[0], " of 16 subdomains would have to be merged, 2 may be"));
   CHECK(account.get("rounds") + 1 == searches); // angles are measured in the end
+  CHECK(account.children.empty());              // times of stages are with these
 
   // A run that goes on does not begin with what was given up, and tells the same.
   const int last = asked.back();
@@ -267,6 +269,24 @@ TEST_CASE(
   CHECK(resumed.summary.find("intersection").counters == account.counters);
   CHECK(resumed.summary.find("intersection").warnings == account.warnings);
   CHECK(resumed.mesh.skeleton.points == result.mesh.skeleton.points);
+}
+
+TEST_CASE("What stages of a decomposition that was given up took is time of the same stages") {
+  report account;
+  account.seconds = 1;
+  add_time(account, "partition", 2);
+  add_time(account, "skeleton", 3);
+  add_time(account, "partition", 4);
+  std::vector<report> stages(2);
+  stages[0].name = "partition";
+  stages[0].seconds = 10;
+  stages[1].name = "meshing";
+  stages[1].seconds = 20;
+  give_time_to_stages(account, stages);
+  CHECK(stages[0].seconds == 16);
+  CHECK(stages[1].seconds == 20);
+  CHECK(account.seconds == 1);
+  CHECK(account.children.empty());
 }
 
 TEST_CASE("Regions that stay folded over ask for fewer subdomains, as long as there are more than solids") {
@@ -289,6 +309,7 @@ TEST_CASE("Regions that stay folded over ask for fewer subdomains, as long as th
     if (can_be_fewer) {
       CHECK(!rounds.realize_boundaries());
       CHECK(!rounds.too_many_merges().empty());
+      CHECK(rounds.give_up().find("skeleton").seconds > 0);
     } else {
       CHECK_THROWS_WITH_AS(rounds.realize_boundaries(),
                            doctest::Contains("stays folded over, also when refined"), intersection_error);

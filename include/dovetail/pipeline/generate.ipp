@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace dovetail {
 
@@ -45,6 +46,8 @@ std::optional<generated<D>> generate_once(const any_geometry& model, background_
   auto made = rounds.mesh_pieces();
   if (!made) {
     account = rounds.give_up();
+    add_time(account, "simplification", divided.simplification.seconds);
+    add_time(account, "partition", divided.partition.seconds);
     too_many_merges = rounds.too_many_merges();
     return {};
   }
@@ -63,9 +66,12 @@ std::optional<generated<D>> generate_once(const any_geometry& model, background_
     result.mesh = selected_pieces<D>(result.mesh, result.only);
   result.failures = std::move(meshed.failures);
   result.summary.name = "generate";
-  result.summary.children = {std::move(background.summary), std::move(divided.simplification),
-                             std::move(divided.partition),  std::move(skeleton.summary),
-                             rounds.intersection(),         std::move(meshed.summary)};
+  report intersection = rounds.intersection();
+  std::vector<report>& stages = result.summary.children;
+  stages = {std::move(background.summary), std::move(divided.simplification), std::move(divided.partition),
+            std::move(skeleton.summary), std::move(meshed.summary)};
+  give_time_to_stages(intersection, stages);
+  stages.insert(stages.end() - 1, std::move(intersection));
   result.background = std::move(background.mesh);
   return result;
 }

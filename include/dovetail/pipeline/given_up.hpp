@@ -11,8 +11,26 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace dovetail {
+
+/// Adds to an account what a stage of a decomposition that is given up has taken.
+inline void add_time(report& account, const std::string& stage, double seconds) {
+  report& part = account.children.emplace_back();
+  part.name = stage;
+  part.seconds = seconds;
+}
+
+/// Takes from an account what stages of decompositions before have taken: it is time of the same stages.
+inline void give_time_to_stages(report& account, std::vector<report>& stages) {
+  for (const report& before : account.children)
+    for (report& stage : stages)
+      if (stage.name == before.name)
+        stage.seconds += before.seconds;
+  account.children.clear();
+}
 
 /// Keeps the accounts of decompositions of a background mesh where a later run finds them.
 template <int D>

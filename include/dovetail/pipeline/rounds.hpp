@@ -11,6 +11,7 @@
 #include "dovetail/pipeline/crossings.hpp"
 #include "dovetail/pipeline/divide.hpp"
 #include "dovetail/pipeline/fine_angles.hpp"
+#include "dovetail/pipeline/given_up.hpp"
 #include "dovetail/pipeline/piece_meshing.hpp"
 #include "dovetail/pipeline/repairs.hpp"
 #include "dovetail/pipeline/repartition_rounds.hpp"
@@ -85,6 +86,8 @@ public:
     forget(given_.run_tasks, name_of_pieces, finished_);
     report account = intersection();
     append(account.warnings, state_.warnings);
+    add_time(account, "skeleton", skeleton_seconds_);
+    add_time(account, "meshing", meshing_seconds_);
     return account;
   }
 
@@ -111,6 +114,7 @@ public:
     while (auto made = realize_boundaries()) {
       require_wanted();
       auto meshed = mesh_wanted_pieces(model_, mesh_, *made, divided_.weights, state_.size, given_);
+      meshing_seconds_ += meshed.summary.seconds;
       finished_.insert(meshed.finished.begin(), meshed.finished.end());
       const auto refine = [&] { return refine_faults(faults_of(*made, meshed), state_); };
       const auto merge = [&] { return merge_failures<D>(made->fine, meshed.failures, state_); };
@@ -122,6 +126,7 @@ public:
       if (!too_many_merges_.empty())
         break;
       append(meshed.summary.warnings, state_.warnings);
+      meshed.summary.seconds = meshing_seconds_;
       return std::pair(*std::move(made), std::move(meshed));
     }
     return {};
@@ -264,6 +269,7 @@ private:
   report account_;                             ///< of decompositions before and of this one
   intersection_counts counts_;
   double skeleton_seconds_ = 0;
+  double meshing_seconds_ = 0;
   std::string too_many_merges_;
   bool sees_part_ = false;                     ///< of the skeleton, in what was last realized
   std::vector<std::size_t> element_of_wanted_; ///< one of each, where the skeleton is made around these alone
