@@ -56,9 +56,9 @@ struct interface_figures {
   std::optional<double> min_face_angle_deg = {};
   std::optional<double> min_dihedral_deg = {};
   std::int64_t faces = 0;
-  std::int64_t forced = 0;        ///< below the threshold because of the CAD
-  std::int64_t refused = 0;       ///< below the threshold because of the bound on super-elements
-  std::int64_t remeshing = 0;     ///< below the threshold since the final size: by curving or refining
+  std::int64_t forced = 0;    ///< below the threshold because of the CAD
+  std::int64_t refused = 0;   ///< below the threshold because of the bound on super-elements
+  std::int64_t remeshing = 0; ///< below the threshold by curving or refining, or a rule that cares for none
   std::vector<small_angle> below; ///< all of these, by growing angle
 };
 

@@ -20,7 +20,7 @@ namespace dovetail {
 enum class violation_cause : std::uint8_t {
   forced,    ///< what is fixed forces it: no interface that ends there can have a larger one
   refused,   ///< one of its sides is, or lies on, a coarse side that the bound refused to remove
-  remeshing, ///< neither: it came up after the coarse decomposition, by curving or refining
+  remeshing, ///< neither: it came up by curving or refining, or the rule did not want it away
 };
 
 /// An angle that is too small.
