@@ -38,6 +38,8 @@ public:
   }
   /// How many characters, then the characters.
   void text(const std::string& s);
+  /// Makes room for so many bytes, where it is known about how many there will be.
+  void reserve(std::size_t bytes) { buffer_.reserve(bytes); }
   byte_buffer take() { return std::move(buffer_); } ///< what has been written; the writer is empty after that
 
 private:

@@ -31,6 +31,9 @@ namespace detail {
 inline csr_graph within_materials(const csr_graph& graph, std::span<const local_id> material) {
   csr_graph filtered;
   filtered.node_weights = graph.node_weights;
+  filtered.offsets.reserve(graph.offsets.size());
+  filtered.neighbours.reserve(graph.neighbours.size());
+  filtered.edge_weights.reserve(graph.neighbours.size());
   for (local_id v = 0; v < graph.node_count(); ++v) {
     const auto row = graph.row(v);
     const auto begin = static_cast<std::size_t>(graph.offsets[v]);

@@ -9,11 +9,18 @@
 #include "dovetail/mesh/adjacency.hpp"
 #include "dovetail/mesh/background_mesh.hpp"
 #include "dovetail/mesh/coarse_skeleton.hpp"
+#include "dovetail/mesh/simplex_grouping.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace dovetail {
 
@@ -138,14 +145,52 @@ inline void find_fixed_points(std::vector<skeleton_region>& regions, const surfa
   }
 }
 
-/// Every edge of the interface faces, once, as a line inside the domain (surface edges are found elsewhere).
-inline std::vector<std::array<local_id, 2>> face_edges(const std::vector<skeleton_face>& faces) {
-  std::vector<std::array<local_id, 2>> edges;
+/// The edges of interface faces.
+struct edges_of_faces {
+  std::vector<std::array<local_id, 2>> edges; ///< sorted, each once
+  std::vector<local_id> of_face;              ///< their numbers: 3 f + i is the one behind corner i of face f
+};
+
+inline edges_of_faces face_edges(const std::vector<skeleton_face>& faces) {
+  local_id last = -1;
   for (const skeleton_face& face : faces)
-    for (std::size_t i = 0; i < 3; ++i)
-      edges.push_back(sorted_vertices(std::array{face.vertices[i], face.vertices[(i + 1) % 3]}));
-  sort_unique(edges);
-  return edges;
+    last = std::max(last, *std::max_element(face.vertices.begin(), face.vertices.end()));
+  edges_of_faces found;
+  found.of_face.resize(3 * faces.size());
+  for_each_group<2>(
+      3 * faces.size(), static_cast<std::size_t>(last) + 1,
+      [&](std::size_t k) {
+        const simplex<2>& vertices = faces[k / 3].vertices;
+        return sorted_vertices(std::array{vertices[k % 3], vertices[(k + 1) % 3]});
+      },
+      [&](const std::array<local_id, 2>& edge, std::span<const std::uint32_t> members) {
+        for (const std::uint32_t k : members)
+          found.of_face[k] = static_cast<local_id>(found.edges.size());
+        found.edges.push_back(edge);
+      });
+  return found;
+}
+
+/// Adds those edges of interface faces that are no lines yet, as lines inside the domain, to the sorted lines
+/// on the surface, and tells faces that have an edge on the surface.
+inline void add_lines_inside(std::vector<skeleton_line>& lines, const edges_of_faces& of_faces,
+                             std::vector<skeleton_face>& faces) {
+  const std::vector<skeleton_line> on_surface = std::exchange(lines, {});
+  std::vector<std::uint8_t> is_on_surface(of_faces.edges.size(), 0);
+  lines.reserve(on_surface.size() + of_faces.edges.size());
+  auto next = on_surface.begin();
+  for (std::size_t e = 0; e < of_faces.edges.size(); ++e) {
+    const std::array<local_id, 2>& edge = of_faces.edges[e];
+    for (; next != on_surface.end() && next->vertices < edge; ++next)
+      lines.push_back(*next);
+    is_on_surface[e] = next != on_surface.end() && next->vertices == edge ? 1 : 0;
+    if (is_on_surface[e] == 0)
+      lines.push_back({.vertices = edge});
+  }
+  lines.insert(lines.end(), next, on_surface.end());
+  for (std::size_t k = 0; k < of_faces.of_face.size(); ++k)
+    if (is_on_surface[of_faces.of_face[k]] != 0)
+      faces[k / 3].is_curved = true;
 }
 
 /// At the entry of the steps on the volume.
@@ -243,29 +288,21 @@ DOVETAIL_INLINE coarse_skeleton extract_skeleton(const surface_mesh& surface,
     detail::require_surface(surface, subdomains);
   const detail::surface_edges edges(surface);
   detail::require_valid_unless(mesh_is, surface.mesh, edges.sides(), "extract_skeleton");
-  const auto edges_of_faces = detail::face_edges(faces);
+  const auto face_edges = detail::face_edges(faces);
   coarse_skeleton skeleton;
   std::vector<bool> is_line(edges.sides().size());
   for (std::size_t side = 0; side < is_line.size(); ++side) {
     const auto key = sorted_vertices(edges.sides().vertices[side]);
     is_line[side] = detail::bounds_regions(edges, side, surface, subdomains) ||
-                    std::binary_search(edges_of_faces.begin(), edges_of_faces.end(), key);
+                    std::binary_search(face_edges.edges.begin(), face_edges.edges.end(), key);
     if (is_line[side])
       skeleton.lines.push_back(edges.line(side));
   }
-  const auto surface_lines = skeleton.lines;
-  for (const auto& edge : edges_of_faces)
-    if (find_line(surface_lines, edge[0], edge[1]) == no_id)
-      skeleton.lines.push_back({.vertices = edge});
   sort_all(skeleton.lines, [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
+  detail::add_lines_inside(skeleton.lines, face_edges, faces);
 
   skeleton.regions = detail::connected_regions(surface, edges, is_line, subdomains);
   detail::find_fixed_points(skeleton.regions, surface, skeleton.lines, faces);
-  for (skeleton_face& face : faces)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const local_id line = find_line(skeleton.lines, face.vertices[i], face.vertices[(i + 1) % 3]);
-      face.is_curved = face.is_curved || skeleton.lines[line].on.dimension < 3;
-    }
   skeleton.faces = std::move(faces);
   return skeleton;
 }

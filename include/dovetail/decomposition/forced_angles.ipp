@@ -2,7 +2,6 @@
 /// What `forced_angles.hpp` declares.
 #pragma once
 
-#include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/linkage.hpp"
 #include "dovetail/core/sequence.hpp"
 #include "dovetail/decomposition/forced_angles.hpp"
@@ -11,7 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -89,18 +92,32 @@ private:
         curve_edges_.push_back({sorted_vertices(simplex<1>{a, b}), cad_.curves[e]});
     }
     sort_all(curve_edges_, [](const edge_of_curve& a, const edge_of_curve& b) { return a.edge < b.edge; });
-    curve_edges_at_ = by_vertex(curve_edges_);
+    curve_edges_at_ = edges_at_points(curve_edges_);
   }
 
-  /// Numbers of the edges that begin at each point.
-  template <class Edge>
-  compressed_rows<std::size_t> by_vertex(const std::vector<Edge>& edges) const {
-    return sorted_into_rows<std::size_t>(cad_.points.size(), [&](const auto& put) {
+  /// Numbers of edges by their ends: few, so that nothing is made for each point of a large mesh.
+  class edges_at_points {
+  public:
+    edges_at_points() = default;
+    template <class Edge>
+    explicit edges_at_points(const std::vector<Edge>& edges) {
       for (std::size_t e = 0; e < edges.size(); ++e)
         for (const local_id end : edges[e].edge)
-          put(end, e);
-    });
-  }
+          by_end_.push_back({end, e});
+      sort_all(by_end_);
+    }
+
+    /// Pairs of the point and the number of an edge there, growing.
+    std::span<const std::pair<local_id, std::size_t>> operator[](local_id point) const {
+      const auto [first, last] =
+          std::equal_range(by_end_.begin(), by_end_.end(), std::pair(point, std::size_t{0}),
+                           [](const auto& a, const auto& b) { return a.first < b.first; });
+      return {first, last};
+    }
+
+  private:
+    std::vector<std::pair<local_id, std::size_t>> by_end_;
+  };
 
   void collect_edges() {
     for (std::size_t t = 0; t < cad_.triangles.size(); ++t)
@@ -135,7 +152,7 @@ private:
                               {host{1, curve}, host{2, cad_.faces[edges_[i].triangle]},
                                host{2, cad_.faces[edges_[j].triangle]}},
                               angle});
-    sharp_at_ = by_vertex(sharp_);
+    sharp_at_ = edges_at_points(sharp_);
   }
 
   /// The angle between two triangles at their edge; 360 where nothing is between them.
@@ -159,7 +176,7 @@ private:
   }
 
   void add_sharp_edges(local_id vertex, double wanted_deg, std::vector<host>& forcing) const {
-    for (const std::size_t sharp : sharp_at_[vertex])
+    for (const auto& [end, sharp] : sharp_at_[vertex])
       if (sharp_[sharp].opening < wanted_deg)
         append(forcing, sharp_[sharp].entities);
   }
@@ -167,7 +184,7 @@ private:
   /// Two curves with a small angle between them at their common end.
   void add_curves(local_id vertex, std::vector<host>& forcing) const {
     std::vector<edge_of_curve> here;
-    for (const std::size_t e : curve_edges_at_[vertex])
+    for (const auto& [end, e] : curve_edges_at_[vertex])
       here.push_back(curve_edges_[e]);
     const auto direction = [&](const edge_of_curve& e) {
       return point(e.edge[0] == vertex ? e.edge[1] : e.edge[0]) - point(vertex);
@@ -225,10 +242,10 @@ private:
   std::vector<std::uint8_t> near_;      ///< per point: whether a violation is there
   std::vector<edge_of_triangle> edges_; ///< at places, by growing edge
   std::vector<edge_of_curve> curve_edges_;
-  compressed_rows<std::size_t> curve_edges_at_; ///< per point
+  edges_at_points curve_edges_at_;
   std::vector<double> length_of_curve_;
   std::vector<sharp_edge> sharp_;
-  compressed_rows<std::size_t> sharp_at_; ///< per point
+  edges_at_points sharp_at_;
 };
 
 } // namespace detail

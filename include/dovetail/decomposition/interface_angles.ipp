@@ -60,7 +60,7 @@ public:
                               cause_at(static_cast<local_id>(s)));
       }
     if (collector_.found.interface_faces > 0) {
-      const ridge_table<D> ridges = build_ridges(in_.mesh, in_.sides);
+      const ridge_table<D> ridges = build_ridges_at<D>(in_.mesh, in_.sides, points_of_interfaces());
       for (std::size_t r = 0; r < ridges.size(); ++r)
         for (std::size_t fan = ridges.fan_begins[r]; fan < ridges.fan_begins[r + 1]; ++fan)
           measure_fan(ridges.vertices[r], ridges.fan(fan), ridges.closed[fan]);
@@ -69,6 +69,16 @@ public:
   }
 
 private:
+  /// Not zero for such points: what lies elsewhere has no dihedral beside an interface.
+  std::vector<std::uint8_t> points_of_interfaces() const {
+    std::vector<std::uint8_t> are(in_.mesh.points.size(), 0);
+    for (std::size_t s = 0; s < is_interface_.size(); ++s)
+      if (is_interface_[s])
+        for (const local_id v : in_.sides.vertices[s])
+          are[v] = 1;
+    return are;
+  }
+
   local_id part(local_id element) const { return in_.part_of_element[element]; }
   bool changes_tag(local_id a, local_id b) const {
     return !in_.mesh.tags.empty() && in_.mesh.tags[a] != in_.mesh.tags[b];
@@ -170,7 +180,8 @@ inline std::array<local_id, 2> ends_of_half_edge(const fine_skeleton& fine, std:
   return sorted_vertices(pick(fine.sides[half_edge / 3], numbering::sides<2>[half_edge % 3]));
 }
 inline std::size_t share_of_edge(const fine_skeleton& fine, std::uint32_t half_edge, std::size_t shares) {
-  return static_cast<std::size_t>(ends_of_half_edge(fine, half_edge)[0]) % shares;
+  const auto smaller = static_cast<std::uint32_t>(ends_of_half_edge(fine, half_edge)[0]);
+  return smaller % static_cast<std::uint32_t>(shares); // of 32 bits, which takes a third of the time
 }
 
 /// Measures between the triangles of a fine skeleton.

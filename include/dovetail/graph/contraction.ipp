@@ -17,6 +17,23 @@
 
 namespace dovetail {
 
+namespace detail {
+
+/// Sorts half edges by their other end, equal ones in their order. Mostly these are a few, for which
+/// `std::stable_sort` would ask for memory each time.
+inline void sort_row(std::pair<local_id, double>* first, std::pair<local_id, double>* last) {
+  constexpr std::ptrdiff_t few = 32;
+  const auto comes_first = [](const auto& x, const auto& y) { return x.first < y.first; };
+  if (last - first > few) {
+    std::stable_sort(first, last, comes_first);
+    return;
+  }
+  for (auto* next = first; next < last; ++next)
+    std::rotate(std::upper_bound(first, next, *next, comes_first), next, next + 1);
+}
+
+} // namespace detail
+
 DOVETAIL_INLINE csr_graph make_csr_graph(std::vector<double> node_weights,
                                          const std::vector<weighted_edge>& edges) {
   const std::size_t n = node_weights.size();
@@ -43,10 +60,12 @@ DOVETAIL_INLINE csr_graph make_csr_graph(std::vector<double> node_weights,
   csr_graph graph;
   graph.node_weights = std::move(node_weights);
   graph.offsets.reserve(n + 1);
+  graph.neighbours.reserve(half_edges.size());
+  graph.edge_weights.reserve(half_edges.size());
   for (std::size_t v = 0; v < n; ++v) {
     auto* const first = half_edges.data() + begins[v];
     auto* const last = half_edges.data() + begins[v + 1];
-    std::stable_sort(first, last, [](const auto& x, const auto& y) { return x.first < y.first; });
+    detail::sort_row(first, last);
     for (const auto* it = first; it != last; ++it)
       if (it != first && (it - 1)->first == it->first) {
         graph.edge_weights.back() += it->second;

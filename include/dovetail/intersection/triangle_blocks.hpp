@@ -28,9 +28,14 @@ public:
 
   triangle_blocks(std::span<const vec3> points, std::span<const simplex<2>> triangles)
       : triangles_(triangles.size()), boxes_((triangles.size() + block_size - 1) / block_size) {
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      for (const local_id v : triangles[t])
-        boxes_[t / block_size].include(points[v]);
+    for (std::size_t b = 0; b < boxes_.size(); ++b) {
+      box3 box; // not in place: the compiler would write it back after each point
+      for_each(b, [&](local_id t) {
+        for (const local_id v : triangles[t])
+          box.include(points[v]);
+      });
+      boxes_[b] = box;
+    }
   }
 
   std::size_t size() const { return boxes_.size(); }

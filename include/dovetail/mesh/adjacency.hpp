@@ -118,6 +118,15 @@ ridge_table<D> build_ridges(std::span<const simplex<D>> elements, std::size_t po
 template <int D>
 ridge_table<D> build_ridges(const simplicial_mesh<D>& mesh, const side_table<D>& sides);
 
+/// Only the ridges all of whose points are wanted, each with all its fans; the others are `no_id` in
+/// `of_element`. What is made is as large as what is wanted.
+/// \param mesh triangles (D = 2) or tetrahedra (D = 3)
+/// \param sides `build_sides` of the elements
+/// \param is_wanted not zero for such points, one per point
+template <int D>
+ridge_table<D> build_ridges_at(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                               std::span<const std::uint8_t> is_wanted);
+
 /// The side with these vertices in any order, or no_id. O(log sides).
 /// Throws nothing.
 /// \param sides `build_sides` of the elements
@@ -132,6 +141,8 @@ extern template std::vector<std::array<local_id, 3>> element_neighbours<2>(const
 extern template ridge_table<2> build_ridges<2>(std::span<const simplex<2>> elements, std::size_t point_count,
                                                const side_table<2>& sides);
 extern template ridge_table<2> build_ridges<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides);
+extern template ridge_table<2> build_ridges_at<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
+                                                  std::span<const std::uint8_t> is_wanted);
 extern template local_id find_side<2>(const side_table<2>& sides, const simplex<1>& vertices);
 extern template side_table<3> build_sides<3>(std::span<const simplex<3>> elements, std::size_t point_count);
 extern template side_table<3> build_sides<3>(const simplicial_mesh<3>& mesh);
@@ -139,6 +150,8 @@ extern template std::vector<std::array<local_id, 4>> element_neighbours<3>(const
 extern template ridge_table<3> build_ridges<3>(std::span<const simplex<3>> elements, std::size_t point_count,
                                                const side_table<3>& sides);
 extern template ridge_table<3> build_ridges<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides);
+extern template ridge_table<3> build_ridges_at<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides,
+                                                  std::span<const std::uint8_t> is_wanted);
 extern template local_id find_side<3>(const side_table<3>& sides, const simplex<2>& vertices);
 #endif
 

@@ -159,27 +159,67 @@ std::vector<std::array<local_id, D + 1>> element_neighbours(const side_table<D>&
   return neighbours;
 }
 
+namespace detail {
+
+/// The vertices of local ridge `w % n` of element `w / n`, n per element.
 template <int D>
-ridge_table<D> build_ridges(std::span<const simplex<D>> elements, std::size_t point_count,
-                            const side_table<D>& sides) {
+simplex<D - 2> ridge_vertices(std::span<const simplex<D>> elements, std::size_t w) {
+  constexpr std::size_t n = ridge_table<D>::per_element;
+  return pick(elements[w / n], numbering::ridges<D>[w % n]);
+}
+
+/// The ridges of `count` dihedrals, which are `number(i)` (element x ridges per element + local ridge),
+/// growing; all dihedrals of a ridge are among them, or none.
+template <int D, class Number>
+ridge_table<D> ridges_of(std::span<const simplex<D>> elements, std::size_t point_count,
+                         const side_table<D>& sides, std::size_t count, const Number& number) {
   constexpr std::size_t n = ridge_table<D>::per_element;
   ridge_table<D> table;
   table.of_element.resize(elements.size());
-  table.dihedral_codes.reserve(elements.size() * n);
-  detail::fan_builder<D> fans(sides, table);
+  if (count < elements.size() * n)
+    for (auto& its : table.of_element)
+      its.fill(no_id);
+  table.dihedral_codes.reserve(count);
+  fan_builder<D> fans(sides, table);
+  std::vector<std::uint32_t> numbers;
   for_each_group<static_cast<std::size_t>(D - 1)>(
-      elements.size() * n, point_count,
-      [&](std::size_t w) {
-        return sorted_vertices(detail::pick(elements[w / n], numbering::ridges<D>[w % n]));
-      },
+      count, point_count,
+      [&](std::size_t i) { return sorted_vertices(ridge_vertices<D>(elements, number(i))); },
       [&](const auto& key, std::span<const std::uint32_t> members) {
         const auto ridge = static_cast<local_id>(table.vertices.size());
         table.vertices.push_back(key);
-        for (const std::uint32_t w : members)
+        numbers.clear();
+        for (const std::uint32_t i : members) {
+          const auto w = static_cast<std::uint32_t>(number(i));
+          numbers.push_back(w);
           table.of_element[w / n][w % n] = ridge;
-        fans.append(members);
+        }
+        fans.append(numbers);
       });
   return table;
+}
+
+} // namespace detail
+
+template <int D>
+ridge_table<D> build_ridges(std::span<const simplex<D>> elements, std::size_t point_count,
+                            const side_table<D>& sides) {
+  return detail::ridges_of<D>(elements, point_count, sides, elements.size() * ridge_table<D>::per_element,
+                              [](std::size_t w) { return w; });
+}
+
+template <int D>
+ridge_table<D> build_ridges_at(const simplicial_mesh<D>& mesh, const side_table<D>& sides,
+                               std::span<const std::uint8_t> is_wanted) {
+  const auto elements = span_of(mesh.elements);
+  std::vector<std::uint32_t> wanted;
+  for (std::size_t w = 0; w < elements.size() * ridge_table<D>::per_element; ++w) {
+    const auto vertices = detail::ridge_vertices<D>(elements, w);
+    if (std::all_of(vertices.begin(), vertices.end(), [&](local_id v) { return is_wanted[v] != 0; }))
+      wanted.push_back(static_cast<std::uint32_t>(w));
+  }
+  return detail::ridges_of<D>(elements, mesh.points.size(), sides, wanted.size(),
+                              [&](std::size_t i) { return wanted[i]; });
 }
 
 template <int D>
@@ -205,6 +245,8 @@ template std::vector<std::array<local_id, 3>> element_neighbours<2>(const side_t
 template ridge_table<2> build_ridges<2>(std::span<const simplex<2>> elements, std::size_t point_count,
                                         const side_table<2>& sides);
 template ridge_table<2> build_ridges<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides);
+template ridge_table<2> build_ridges_at<2>(const simplicial_mesh<2>& mesh, const side_table<2>& sides,
+                                           std::span<const std::uint8_t> is_wanted);
 template local_id find_side<2>(const side_table<2>& sides, const simplex<1>& vertices);
 template side_table<3> build_sides<3>(std::span<const simplex<3>> elements, std::size_t point_count);
 template side_table<3> build_sides<3>(const simplicial_mesh<3>& mesh);
@@ -212,6 +254,8 @@ template std::vector<std::array<local_id, 4>> element_neighbours<3>(const side_t
 template ridge_table<3> build_ridges<3>(std::span<const simplex<3>> elements, std::size_t point_count,
                                         const side_table<3>& sides);
 template ridge_table<3> build_ridges<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides);
+template ridge_table<3> build_ridges_at<3>(const simplicial_mesh<3>& mesh, const side_table<3>& sides,
+                                           std::span<const std::uint8_t> is_wanted);
 template local_id find_side<3>(const side_table<3>& sides, const simplex<2>& vertices);
 #endif
 

@@ -51,6 +51,19 @@ struct coarse_skeleton {
 /// Index of the line between two coarse vertices, or no_id. O(log lines).
 local_id find_line(const std::vector<skeleton_line>& lines, local_id a, local_id b);
 
+/// Finds lines by their ends in a few steps: for a look at all lines of a skeleton. It must not outlive the
+/// lines.
+class line_index {
+public:
+  explicit line_index(const std::vector<skeleton_line>& lines);
+  /// As `find_line`.
+  local_id find(local_id a, local_id b) const;
+
+private:
+  const std::vector<skeleton_line>& lines_;
+  std::vector<local_id> first_; ///< per point: the first line of which it is the smaller end; and the end
+};
+
 /// Whether two orders of the same three vertices turn the same way.
 inline bool same_turn(const simplex<2>& a, const simplex<2>& b) {
   const auto at = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());

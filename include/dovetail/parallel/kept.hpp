@@ -24,7 +24,9 @@ public:
   /// Of what is a function of these, byte by byte: 0 and -0 are two. Linear in their size.
   template <encodable... Inputs>
   static kept of(const Inputs&... inputs) {
+    constexpr std::size_t mostly_enough = 256;
     byte_writer bytes;
+    bytes.reserve(mostly_enough);
     (encode(bytes, inputs), ...);
     content_hash hash;
     hash.bytes(bytes.take());

@@ -92,20 +92,32 @@ public:
   template <class Use>
   void for_each(std::span<const kept<Result>> results, const Use& use) const {
     struct open_batch {
+      content_key key = {};
       std::size_t uses = 0;
-      std::vector<Result> members;
+      std::vector<Result> members = {};
+    };
+    struct open_place {
+      open_batch* batch;
+      std::size_t member;
     };
     std::unordered_map<content_key, open_batch, content_key_hash> open;
-    for (const kept<Result>& result : results)
-      ++open[places_.at(result).batch].uses;
+    std::vector<open_place> places;
+    places.reserve(results.size());
+    for (const kept<Result>& result : results) {
+      const place at = places_.at(result);
+      const bool is_next = !places.empty() && places.back().batch->key == at.batch; // as most are
+      open_batch& held = is_next ? *places.back().batch : open[at.batch];
+      held.key = at.batch;
+      ++held.uses;
+      places.push_back({&held, at.member});
+    }
     for (std::size_t i = 0; i < results.size(); ++i) {
-      const place at = places_.at(results[i]);
-      open_batch& held = open[at.batch];
+      open_batch& held = *places[i].batch;
       if (held.members.empty())
-        held.members = store_->value<std::vector<Result>>(at.batch);
-      use(i, std::as_const(held.members[at.member]));
+        held.members = store_->value<std::vector<Result>>(held.key);
+      use(i, std::as_const(held.members[places[i].member]));
       if (--held.uses == 0)
-        open.erase(at.batch);
+        held.members = {};
     }
   }
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace dovetail::detail {
@@ -20,15 +21,21 @@ namespace dovetail::detail {
 DOVETAIL_INLINE std::vector<std::uint32_t> half_edges_that_matter(const realized<3>& skeleton) {
   const auto& first = skeleton.patches.first_triangle;
   const std::size_t regions = skeleton.coarse.regions.size();
+  const std::span<const simplex<2>> sides = span_of(skeleton.fine.sides);
+  const local_id line_points = skeleton.patches.line_points;
   std::vector<std::uint32_t> matter;
   for (std::size_t p = 0; p + 1 < first.size(); ++p) {
     const bool all = p >= regions && skeleton.coarse.faces[p - regions].is_curved;
-    for (local_id t = first[p]; t < first[p + 1]; ++t)
+    for (local_id t = first[p]; t < first[p + 1]; ++t) {
+      const auto is_inside = [&](std::size_t k) { return sides[t][k] >= line_points ? 1 : 0; };
+      if (!all && is_inside(0) + is_inside(1) + is_inside(2) > 1)
+        continue; // as most are
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto ends = pick(skeleton.fine.sides[t], numbering::sides<2>[k]);
-        if (all || std::max(ends[0], ends[1]) < skeleton.patches.line_points)
+        const auto ends = pick(sides[t], numbering::sides<2>[k]);
+        if (all || std::max(ends[0], ends[1]) < line_points)
           matter.push_back(static_cast<std::uint32_t>(3 * static_cast<std::size_t>(t) + k));
       }
+    }
   }
   return matter;
 }

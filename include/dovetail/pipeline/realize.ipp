@@ -21,14 +21,15 @@ namespace dovetail {
 
 namespace detail {
 
-/// Remeshes the lines of a skeleton.
+/// Remeshes the lines of a skeleton; those that were remeshed already and have not changed stay.
 template <int D, bound_parameters<D> Parameters>
 void space_lines(const any_geometry& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
                  const refined_sizing& size, skeleton_memo& made, const Parameters& given,
                  realized<D>& result) {
   result.lines = number_lines(result.coarse,
                               remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks,
-                                           made.lines, given.options.on_progress),
+                                           made.lines, given.options.on_progress,
+                                           {std::move(result.lines.lines), std::move(result.lines.names)}),
                               coarse_points, surface.vertex_hosts);
 }
 

@@ -9,6 +9,7 @@
 
 #include "dovetail/core/compressed_rows.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/fields.hpp"
 #include "dovetail/core/policy.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/core/sequence.hpp"
@@ -170,6 +171,9 @@ struct region_memo {
     surface_deviation deviation = {};    ///< how far it is from its surface
     double least_angle_deg = 180;        ///< of a triangle's corners, where it was asked for
     std::vector<simplex<1>> chords = {}; ///< by the numbers of points in the region's boundary
+
+    using fields = field_list<&known_mesh::inner_points, &known_mesh::triangles, &known_mesh::is_faulty,
+                              &known_mesh::deviation, &known_mesh::least_angle_deg, &known_mesh::chords>;
   };
 
   memo<patch_mesh> meshes = {};                                           ///< all that were made

@@ -3,7 +3,9 @@
 /// meshes a region.
 #pragma once
 
+#include "dovetail/core/sequence.hpp"
 #include "dovetail/mesh/element_angles.hpp"
+#include "dovetail/parallel/map_tasks.hpp"
 #include "dovetail/parallel/task_model.hpp"
 #include "dovetail/remesh/chords.hpp"
 #include "dovetail/remesh/flat_neighbours.hpp"
@@ -11,8 +13,10 @@
 #include "dovetail/remesh/surface_deviation.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,6 +49,9 @@ public:
                 const refined_sizing& size, const Executor& run, region_memo& made,
                 const mesh_regions_options& options)
       : model_(model), set_(set), mesh_it_(mesh_it), size_(size), run_(run), made_(made), options_(options) {
+    result_.of_region.reserve(set.count);
+    faces_.reserve(set.count);
+    costs_.reserve(set.count);
     for (std::size_t r = 0; r < set.count; ++r) {
       const surface_region region = outline(r);
       result_.of_region.push_back(kept_mesh(r, region));
@@ -65,7 +72,7 @@ public:
 private:
   template <class Item>
   static void append_row(compressed_rows<Item>& rows, const std::vector<Item>& row) {
-    append(rows.items, row);
+    rows.items.insert(rows.items.end(), row.begin(), row.end());
     rows.begins.push_back(rows.items.size());
   }
 
@@ -150,20 +157,58 @@ private:
     note_meshes();
   }
 
-  /// Reads the meshes that were not read before.
+  /// Reads the meshes that were not read before, in tasks where there are many.
   void note_meshes() {
-    result_.for_each(
-        made_, [&](std::size_t r) { return !made_.known.contains(result_.of_region[r]); },
-        [&](std::size_t r, const patch_mesh& mesh) {
-          const auto labels = std::as_const(result_.labels)[r];
-          made_.known[result_.of_region[r]] = {
-              mesh.inner_points.size(),
-              mesh.triangles.size(),
-              !mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty(),
-              deviation_in(mesh.summary),
-              mesh.summary.as<region_counts>().least_angle_deg,
-              chord_finder({labels.begin(), labels.end()}, std::as_const(segments_)[r]).all(mesh.triangles)};
-        });
+    constexpr double triangles_per_task = 1 << 16; // some 10 ms
+    std::vector<std::size_t> unread, begins{0};
+    double triangles = 0; // about, of the last task
+    for (std::size_t r = 0; r < set_.count; ++r)
+      if (!result_.failures.contains(r) && !made_.known.contains(result_.of_region[r])) {
+        if (triangles >= triangles_per_task) {
+          begins.push_back(unread.size());
+          triangles = 0;
+        }
+        unread.push_back(r);
+        triangles += costs_[r];
+      }
+    if (unread.empty())
+      return;
+    begins.push_back(unread.size());
+    const auto read = [&](std::size_t task) {
+      return meshes_known_of(span_of(unread).subspan(begins[task], begins[task + 1] - begins[task]));
+    };
+    made_.known.reserve(made_.known.size() + unread.size());
+    const auto note = [&](std::size_t task, std::vector<region_memo::known_mesh> known) {
+      for (std::size_t k = 0; k < known.size(); ++k)
+        made_.known[result_.of_region[unread[begins[task] + k]]] = std::move(known[k]);
+    };
+    const std::size_t tasks = begins.size() - 1;
+    if (tasks == 1) {
+      note(0, read(0));
+      return;
+    }
+    auto results =
+        map_tasks(run_, tasks, read,
+                  run_options{.on_progress = options_.on_progress.only_stopping(), .stage = options_.stage});
+    for (std::size_t task = 0; task < tasks; ++task)
+      note(task, value_of(std::move(results[task]), "the reading of meshes of regions"));
+  }
+
+  std::vector<region_memo::known_mesh> meshes_known_of(std::span<const std::size_t> regions) const {
+    std::vector<kept<patch_mesh>> names;
+    for (const std::size_t r : regions)
+      names.push_back(result_.of_region[r]);
+    std::vector<region_memo::known_mesh> known;
+    known.reserve(regions.size());
+    made_.meshes.for_each(names, [&](std::size_t i, const patch_mesh& mesh) {
+      const auto labels = result_.labels[regions[i]];
+      known.push_back(
+          {mesh.inner_points.size(), mesh.triangles.size(),
+           !mesh.crossings.empty() || !mesh.misplaced.empty() || !mesh.folded.empty(),
+           deviation_in(mesh.summary), mesh.summary.template as<region_counts>().least_angle_deg,
+           chord_finder({labels.begin(), labels.end()}, segments_[regions[i]]).all(mesh.triangles)});
+    });
+    return known;
   }
 
   patch_mesh make(const Geometry& model, std::size_t r) const {
@@ -217,9 +262,17 @@ private:
   std::vector<std::uint8_t> chords_on_segments(const std::vector<std::pair<simplex<1>, std::size_t>>& chords,
                                                const Labelled& labelled) const {
     std::vector<std::uint8_t> found(chords.size(), 0);
+    local_id largest = 0;
+    for (const auto& [chord, r] : chords)
+      largest = std::max(largest, chord[1]);
+    std::vector<bool> is_end(static_cast<std::size_t>(largest) + 1, false); // of a chord, as few labels are
+    for (const auto& [chord, r] : chords)
+      is_end[chord[0]] = is_end[chord[1]] = true;
     for (std::size_t r = 0; r < set_.count; ++r)
       for (const simplex<1>& segment : segments_[r]) {
         const simplex<1> line = labelled(r, segment);
+        if (line[1] > largest || !is_end[line[0]] || !is_end[line[1]])
+          continue;
         auto chord = std::lower_bound(chords.begin(), chords.end(), std::pair(line, std::size_t{0}));
         for (; chord != chords.end() && chord->first == line; ++chord)
           found[static_cast<std::size_t>(chord - chords.begin())] = 1;

@@ -286,6 +286,7 @@ private:
     for (std::size_t e = 0; e < weights_.size(); ++e)
       weights[out.super_of_element[e]] += weights_[e];
     std::vector<weighted_edge> edges;
+    edges.reserve(fixed_.size());
     for (std::size_t s = 0; s < fixed_.size(); ++s) {
       if (out.side_states[s] == side_state::removed)
         continue;

@@ -14,6 +14,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -196,6 +197,13 @@ double mark_largest_errors(const std::vector<Cell>& cells, double allowed, std::
   return sum;
 }
 
+/// The sum of all errors, added up in the order in which `mark_largest_errors` does it, so the same to the
+/// last bit.
+inline double sum_of_errors(std::vector<double> errors) {
+  sort_all(errors);
+  return std::accumulate(errors.begin(), errors.end(), 0.0);
+}
+
 } // namespace sizing
 
 /// The integral of h^-D over an element, and the error estimated for it.
@@ -224,6 +232,40 @@ std::vector<integral_estimate> integrate_elements(const simplicial_mesh<D>& mesh
   return estimates;
 }
 
+namespace detail {
+
+/// Whether no cell need be split. Sizes too small for any number give an infinite total, of which no cell is
+/// a part worth splitting.
+inline bool is_predicted(double relative_error, std::size_t cells, double total,
+                         const prediction_options& options) {
+  return relative_error <= options.relative_error || cells > options.largest_cells || !std::isfinite(total);
+}
+
+/// What is predicted where no element need be split: then nothing is known of cells but their integrals.
+inline std::optional<element_prediction>
+prediction_without_splits(std::span<const integral_estimate> estimates, double density,
+                          const prediction_options& options) {
+  std::vector<double> errors;
+  errors.reserve(estimates.size());
+  double total = 0;
+  for (const integral_estimate& estimate : estimates) {
+    total += estimate.integral;
+    errors.push_back(estimate.error);
+  }
+  element_prediction result;
+  result.relative_error = total > 0 ? sizing::sum_of_errors(std::move(errors)) / total : 0;
+  if (!is_predicted(result.relative_error, estimates.size(), total, options))
+    return std::nullopt;
+  result.per_element.reserve(estimates.size());
+  for (const integral_estimate& estimate : estimates)
+    result.per_element.push_back(density * estimate.integral);
+  result.elements = density * total;
+  result.cells = estimates.size();
+  return result;
+}
+
+} // namespace detail
+
 /// The number of D-simplices of edge length h that fill `mesh`, and the share of each of its elements, D = 2
 /// or 3. `known` are all of `integrate_elements`, or empty. Adaptive: cells are split, worst first, until the
 /// estimated error is below the one asked for; a source smaller than a cell is found by the field's
@@ -243,6 +285,9 @@ element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
   const std::vector<integral_estimate> own =
       known.empty() ? integrate_elements(mesh, h, 0, mesh.elements.size()) : std::vector<integral_estimate>{};
   const auto estimates = known.empty() ? std::span(own) : known;
+  const double density = options.density > 0 ? options.density : elements_per_unit<D>;
+  if (auto unsplit = detail::prediction_without_splits(estimates, density, options))
+    return *std::move(unsplit);
   box3 domain;
   for (const vec3& p : mesh.points)
     domain.include(p);
@@ -265,9 +310,7 @@ element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
       total += c.integral;
     const double error = sizing::mark_largest_errors(cells, 0.5 * options.relative_error * total, marked);
     result.relative_error = total > 0 ? error / total : 0;
-    // Sizes too small for any number give an infinite total, of which no cell is a part worth splitting.
-    if (result.relative_error <= options.relative_error || cells.size() > options.largest_cells ||
-        !std::isfinite(total))
+    if (detail::is_predicted(result.relative_error, cells.size(), total, options))
       break;
     next.clear();
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -283,7 +326,6 @@ element_prediction predict_elements(const simplicial_mesh<D>& mesh, const H& h,
     cells.swap(next);
   }
 
-  const double density = options.density > 0 ? options.density : elements_per_unit<D>;
   result.per_element.assign(mesh.elements.size(), 0.0);
   for (const cell& c : cells)
     result.per_element[c.owner] += density * c.integral;

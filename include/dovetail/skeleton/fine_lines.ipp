@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,10 +17,11 @@ namespace dovetail {
 
 DOVETAIL_INLINE std::vector<local_id> numbered_lines::along(local_id line, local_id from) const {
   const auto l = static_cast<std::size_t>(line);
-  std::vector<local_id> numbers{number_of(keys[l].vertices[0])};
-  for (std::size_t i = 0; i < lines[l].points.size(); ++i)
-    numbers.push_back(first_point[l] + static_cast<local_id>(i));
-  numbers.push_back(number_of(keys[l].vertices[1]));
+  const std::size_t inner = lines[l].points.size();
+  std::vector<local_id> numbers(inner + 2);
+  numbers.front() = number_of(keys[l].vertices[0]);
+  std::iota(numbers.begin() + 1, numbers.end() - 1, first_point[l]);
+  numbers.back() = number_of(keys[l].vertices[1]);
   if (from != keys[l].vertices[0])
     std::reverse(numbers.begin(), numbers.end());
   return numbers;
@@ -36,6 +38,13 @@ DOVETAIL_INLINE numbered_lines number_lines(const coarse_skeleton& skeleton, rem
     std::for_each(line.vertices.begin(), line.vertices.end(), use);
   for (const skeleton_region& region : skeleton.regions)
     std::for_each(region.fixed_points.begin(), region.fixed_points.end(), use);
+  std::size_t points = static_cast<std::size_t>(
+      std::count(result.number_of_coarse_point.begin(), result.number_of_coarse_point.end(), 0));
+  for (const fine_line& line : made.lines)
+    points += line.points.size();
+  result.points.reserve(points);
+  result.hosts.reserve(points);
+  result.first_point.reserve(made.lines.size());
   for (std::size_t v = 0; v < coarse_points.size(); ++v)
     if (result.number_of_coarse_point[v] != no_id) {
       result.number_of_coarse_point[v] = static_cast<local_id>(result.points.size());

@@ -220,7 +220,7 @@ struct interface_face_patch {
 /// The lines of an interface face: of each side of its key order, from corner i + 1 to corner i + 2.
 std::array<local_id, 3> lines_of(const skeleton_face& face, const std::vector<skeleton_line>& lines);
 
-/// The lines of all interface faces. O(n log n).
+/// The lines of all interface faces. About linear.
 std::vector<std::array<local_id, 3>> lines_of_faces(const coarse_skeleton& skeleton);
 
 /// The interface faces at each line, growing. Linear.

@@ -25,10 +25,13 @@ DOVETAIL_INLINE std::array<local_id, 3> lines_of(const skeleton_face& face,
 }
 
 DOVETAIL_INLINE std::vector<std::array<local_id, 3>> lines_of_faces(const coarse_skeleton& skeleton) {
+  const line_index index(skeleton.lines);
   std::vector<std::array<local_id, 3>> lines;
   lines.reserve(skeleton.faces.size());
-  for (const skeleton_face& face : skeleton.faces)
-    lines.push_back(lines_of(face, skeleton.lines));
+  for (const skeleton_face& face : skeleton.faces) {
+    const simplex<2> key = key_order(face);
+    lines.push_back({index.find(key[1], key[2]), index.find(key[2], key[0]), index.find(key[0], key[1])});
+  }
   return lines;
 }
 
@@ -69,6 +72,10 @@ DOVETAIL_INLINE patch_boundary interface_outline(const skeleton_face& face,
                                                  const numbered_lines& lines) {
   const simplex<2> key = key_order(face);
   patch_boundary outline;
+  std::size_t points = 0;
+  for (const local_id line : lines_of_face)
+    points += lines.lines[line].points.size() + 2;
+  outline.labels.reserve(points);
   for (std::size_t i = 0; i < 3; ++i) { // the last point starts the next side
     append(outline.labels, lines.along(lines_of_face[i], key[(i + 1) % 3]));
     outline.labels.pop_back();

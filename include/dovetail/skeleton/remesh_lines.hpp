@@ -21,6 +21,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -138,7 +139,8 @@ box3 place_of(const skeleton_line& line, std::span<const vec3> coarse_points);
 kept<fine_line> kept_line(const skeleton_line& line, std::span<const vec3> coarse_points,
                           const refined_sizing& size);
 
-/// Points of all lines; those that are not in `made` are made through `run`.
+/// Points of all lines; those that are not in `made` are made through `run`, and those that have not changed
+/// since `before` are moved from there.
 /// Throws `mesher_error` naming what could not be evaluated.
 /// About linear in the points made.
 /// \param model the model that the lines are of
@@ -148,10 +150,12 @@ kept<fine_line> kept_line(const skeleton_line& line, std::span<const vec3> coars
 /// \param run carries out independent tasks; the result does not depend on it
 /// \param made lines of earlier rounds; grows
 /// \param on_progress is told of progress and may ask to stop (`cancelled`)
+/// \param before what was made of lines of the same numbers, such as these with other segments; or nothing
 template <geometry_model Geometry, executor Executor>
 remeshed_lines remesh_lines(const Geometry& model, std::span<const skeleton_line> lines,
                             std::span<const vec3> coarse_points, const refined_sizing& size,
-                            const Executor& run, memo<fine_line>& made, const progress& on_progress = {}) {
+                            const Executor& run, memo<fine_line>& made, const progress& on_progress = {},
+                            remeshed_lines before = {}) {
   constexpr double lines_per_task = 256;
   remeshed_lines result;
   std::vector<kept<fine_line>>& wanted = result.names;
@@ -173,7 +177,16 @@ remeshed_lines remesh_lines(const Geometry& model, std::span<const skeleton_line
   if (!failures.empty())
     throw mesher_error("remeshing of skeleton lines failed: " + failures.front().reason);
   result.lines.resize(lines.size());
-  made.for_each(wanted, [&](std::size_t l, const fine_line& line) { result.lines[l] = line; });
+  std::vector<std::size_t> others; // that are read
+  std::vector<kept<fine_line>> names;
+  for (std::size_t l = 0; l < lines.size(); ++l)
+    if (l < before.names.size() && before.names[l] == wanted[l]) {
+      result.lines[l] = std::move(before.lines[l]);
+    } else {
+      others.push_back(l);
+      names.push_back(wanted[l]);
+    }
+  made.for_each(names, [&](std::size_t i, const fine_line& line) { result.lines[others[i]] = line; });
   return result;
 }
 

@@ -119,8 +119,7 @@ public:
     };
     if (lines_.names.empty())
       return set;
-    for (const skeleton_face& face : skeleton_.faces)
-      lines_of_face_.push_back(lines_of(face, lines_.keys));
+    lines_of_face_ = lines_of_faces(skeleton_);
     set.outline_of = [this](std::size_t p) {
       return interface_outline(face_of(p), lines_of_face_[p - skeleton_.regions.size()], lines_);
     };
