@@ -3,8 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <random>
 #include <set>
+#include <vector>
 
 using namespace dovetail;
 
@@ -79,6 +84,43 @@ void check_ridges(const simplicial_mesh<D>& mesh) {
   REQUIRE(seen.size() == mesh.elements.size() * ridge_table<D>::per_element);
 }
 
+/// The ridges at wanted points are those of all whose points are wanted, with the same fans.
+template <int D>
+void check_ridges_at(const simplicial_mesh<D>& mesh, std::uint64_t seed) {
+  const auto adj = dovetail_test::build_adjacency(mesh);
+  std::mt19937_64 random(seed);
+  std::vector<std::uint8_t> is_wanted(mesh.points.size());
+  for (auto& wanted : is_wanted)
+    wanted = random() % 3 > 0 ? 1 : 0;
+  const auto some = build_ridges_at(mesh, adj.sides, is_wanted);
+  std::size_t found = 0;
+  for (std::size_t r = 0; r < adj.ridges.size(); ++r) {
+    const auto& vertices = adj.ridges.vertices[r];
+    const bool wanted = std::all_of(vertices.begin(), vertices.end(),
+                                    [&](local_id v) { return is_wanted[static_cast<std::size_t>(v)] != 0; });
+    if (wanted) {
+      REQUIRE(some.vertices[found] == vertices);
+      const std::size_t fans = adj.ridges.fan_begins[r + 1] - adj.ridges.fan_begins[r];
+      REQUIRE(some.fan_begins[found + 1] - some.fan_begins[found] == fans);
+      for (std::size_t f = 0; f < fans; ++f) {
+        const auto expected = adj.ridges.fan(adj.ridges.fan_begins[r] + f);
+        const auto fan = some.fan(some.fan_begins[found] + f);
+        REQUIRE(std::equal(fan.begin(), fan.end(), expected.begin(), expected.end()));
+        REQUIRE(some.closed[some.fan_begins[found] + f] == adj.ridges.closed[adj.ridges.fan_begins[r] + f]);
+      }
+    }
+    for (std::size_t f = adj.ridges.fan_begins[r]; f < adj.ridges.fan_begins[r + 1]; ++f)
+      for (const std::uint32_t code : adj.ridges.fan(f)) {
+        const dihedral w = ridge_table<D>::decode(code);
+        REQUIRE(some.of_element[w.element][w.ridge] == (wanted ? static_cast<local_id>(found) : no_id));
+      }
+    found += wanted ? 1 : 0;
+  }
+  REQUIRE(some.size() == found);
+  REQUIRE(found > 0);
+  REQUIRE(found < adj.ridges.size());
+}
+
 } // namespace
 
 TEST_CASE("sides and neighbours agree with a map on random meshes") {
@@ -92,6 +134,13 @@ TEST_CASE("fans cover all dihedrals in order around their ridges") {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     check_ridges(dovetail_test::shuffled(dovetail_test::jittered_cubes(4, 0.15, seed), seed));
     check_ridges(dovetail_test::shuffled(dovetail_test::jittered_squares(9, 0.2, seed), seed));
+  }
+}
+
+TEST_CASE("ridges at wanted points are the same as among all") {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    check_ridges_at(dovetail_test::shuffled(dovetail_test::jittered_cubes(4, 0.15, seed), seed), seed);
+    check_ridges_at(dovetail_test::shuffled(dovetail_test::jittered_squares(9, 0.2, seed), seed), seed);
   }
 }
 

@@ -74,6 +74,11 @@ TEST_CASE("every edge of an interface face and every curve edge is a line with t
     for (std::size_t i = 0; i < 3; ++i)
       CHECK(find_line(skeleton.lines, face.vertices[i], face.vertices[(i + 1) % 3]) != no_id);
   CHECK(find_line(skeleton.lines, 0, 124) == no_id);
+  const line_index index(skeleton.lines);
+  for (local_id a = 0; a < 126; ++a)
+    for (local_id b = 0; b < 126; ++b)
+      REQUIRE(index.find(a, b) == find_line(skeleton.lines, a, b));
+  CHECK(line_index(std::vector<skeleton_line>{}).find(0, 1) == no_id);
 }
 
 TEST_CASE("a subdomain that touches the surface in a point only keeps that point in the region") {
