@@ -199,11 +199,11 @@ void add_output_options(CLI::App& command, mesh_options& options) {
   command.add_option("--trace", options.trace,
                      "JSON file for what ran when and where: for ui.perfetto.dev and dovetail simulate");
   command.add_option("--rank-group", options.rank_group,
-                     "Under mpirun: how many ranks of a machine compute in one process, with the workers of "
-                     "all; 1: each by itself (default: all of them)");
+                     "Under mpirun: how many ranks of a machine compute in one process at most, with the "
+                     "workers of all; 1: each by itself, 0, the default: all of them");
   command.add_option(
       "--spool", options.spool,
-      "Folder for what a run keeps to go on from, on a disk of each rank's own (default: in --out)");
+      "Folder for what a run keeps to go on from, on a disk of each leader of ranks (default: in --out)");
   command.add_flag("--resume", options.resume, "Go on with a run that was stopped or killed");
   command.add_flag("--force", options.force, "Mesh even if the prediction exceeds the disk");
   command.add_flag("--quiet", options.quiet, "No progress and no summary");
@@ -653,19 +653,20 @@ int run_command_line(int argc, char** argv) {
   if (!shared)
     return refused != nullptr ? chosen() : run_supervised(chosen, clean_up, line.stopped);
   const auto on_ranks = [&] {
-    return run_on_ranks({line.mesh.command_line, largest_rank_group(line.mesh)},
-                        [&](const relayed_rank& rank) {
-                          line.mesh.network = rank.network;
-                          line.mesh.computes_for = rank.ranks;
-                          line.mesh.partition_desk = rank.partition_desk;
-                          return chosen();
-                        },
-                        {.of_rank =
-                             [&] {
-                               if (refused == nullptr)
-                                 unfinished.remove_of_rank();
-                             },
-                         .of_all = clean_up});
+    return run_on_ranks(
+        {line.mesh.command_line, largest_rank_group(line.mesh), [&] { return say_stopped(line.mesh); }},
+        [&](const relayed_rank& rank) {
+          line.mesh.network = rank.network;
+          line.mesh.group = rank.group;
+          line.mesh.partition_desk = rank.partition_desk;
+          return chosen();
+        },
+        {.of_rank =
+             [&] {
+               if (refused == nullptr)
+                 unfinished.remove_of_rank();
+             },
+         .of_all = clean_up});
   };
   return run_guarded(on_ranks, help);
 }

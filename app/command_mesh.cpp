@@ -190,6 +190,8 @@ public:
     });
     if (!leads_)
       join(folder, identity, begin, store);
+    if (!options_.resume)
+      remove_spools_of_waiting(options_);
     if (begin == beginning::is_finished) {
       lines_.reset();
       if (leads_ && !options_.quiet)
@@ -214,6 +216,7 @@ public:
       throw;
     }
     store->finish();
+    remove_spools_of_waiting(options_);
     return exit_ok;
   }
 
@@ -305,7 +308,7 @@ private:
     if (!options_.network)
       return policies_.executor;
     const int workers = workers_of_rank(options_);
-    if (workers == 1)
+    if (workers == 1 || options_.executor == "serial")
       return parallel::serial{};
     return parallel::processes{.worker_count = workers};
   }
@@ -395,12 +398,10 @@ private:
   /// Of the rank that writes the report; a batch system starts the others alike.
   void warn_of_binding() {
     const int processors = parallel::available_processors();
-    if (options_.network && options_.workers > 0 && workers_of_rank(options_) > processors)
-      figures_.warnings.push_back(
-          "the " + std::to_string(workers_of_rank(options_)) + " workers of " +
-          (options_.computes_for > 1 ? std::to_string(options_.computes_for) + " ranks" : "a rank") +
-          " have " + std::to_string(processors) +
-          " processors: mpirun binds ranks unless it is given --bind-to none");
+    if (options_.network && options_.workers > processors)
+      figures_.warnings.push_back("the " + std::to_string(options_.workers) + " workers of a rank have " +
+                                  std::to_string(processors) +
+                                  " processors: mpirun binds ranks unless it is given --bind-to none");
   }
 
   void note_sizes(const distributed_simplicial_mesh<D>& mesh) {
@@ -593,6 +594,10 @@ int run_mesh(const mesh_options& options) {
     if (!stop_was_requested())
       throw;
   }
+  return say_stopped(options);
+}
+
+int say_stopped(const mesh_options& options) {
   complain(stopped_line(work_kept_in(options.out, spool_folder(options)).anything));
   return exit_stopped;
 }

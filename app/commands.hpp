@@ -15,6 +15,8 @@
 namespace dovetail::app {
 
 int run_mesh(const mesh_options& options);
+/// On the error stream, and whether another run can go on; returns the exit code.
+int say_stopped(const mesh_options& options);
 int run_compare(const compare_options& options);
 int run_plan(const plan_options& options);
 int run_models();

@@ -75,9 +75,9 @@ struct mesh_options {
   bool force = false;
   bool quiet = false;
   std::optional<any_communicator> network = {}; ///< of the ranks, where there are several
-  int computes_for = 1;                         ///< so many of the ranks that mpirun has started
-  int partition_desk = -1;                      ///< the socket to that of this rank's relay; -1: no relay
-  std::string command_line = {};                ///< which is the same for all of them
+  std::vector<int> group = {};   ///< the ranks that this one computes for, itself too; empty: no ranks
+  int partition_desk = -1;       ///< the socket to that of this rank's relay; -1: no relay
+  std::string command_line = {}; ///< which is the same for all of them
 };
 
 struct plan_options {

@@ -84,6 +84,10 @@ void remove_unfinished_parts(const std::filesystem::path& folder) {
   remove_empty_folder(folder / "unfinished");
 }
 
+std::filesystem::path spool_of_rank(const mesh_options& options, int rank) {
+  return std::filesystem::path(options.spool) / ("rank_" + std::to_string(rank));
+}
+
 void remove_spool_parts(const std::filesystem::path& spooled, bool kept) {
   std::error_code ignored;
   bool ours =
@@ -100,9 +104,22 @@ void remove_spool_parts(const std::filesystem::path& spooled, bool kept) {
 
 std::filesystem::path spool_folder(const mesh_options& options) {
   const std::filesystem::path folder = options.out;
-  return options.spool.empty()
-             ? folder / "spool"
-             : std::filesystem::path(options.spool) / ("rank_" + std::to_string(rank_of_mpirun().rank));
+  return options.spool.empty() ? folder / "spool" : spool_of_rank(options, rank_of_mpirun().rank);
+}
+
+void remove_spools_of_waiting(const mesh_options& options) {
+  if (options.spool.empty())
+    return;
+  for (const int rank : options.group) {
+    const auto place = spool_of_rank(options, rank);
+    if (rank == rank_of_mpirun().rank || !spool::is_started(place))
+      continue;
+    std::error_code ignored;
+    for (const auto& file : entries_of(place))
+      if (file.extension() == ".blob")
+        std::filesystem::remove(file, ignored);
+    remove_spool_parts(place, false);
+  }
 }
 
 kept_work work_kept_in(const std::filesystem::path& folder, const std::filesystem::path& spooled) {

@@ -68,6 +68,9 @@ kept_work work_kept_in(const std::filesystem::path& folder, const std::filesyste
 /// The spool of a run, in the folder of its mesh or, of each rank its own, where the options say.
 std::filesystem::path spool_folder(const mesh_options& options);
 
+/// What an earlier run has left in the spools of ranks that wait for this one now, which has all they had.
+void remove_spools_of_waiting(const mesh_options& options);
+
 /// Throws `io_error` when a file cannot be created under this name. Leaves nothing.
 void check_can_create(const std::filesystem::path& file);
 

@@ -33,10 +33,10 @@ struct rank_introduction {
       field_list<&rank_introduction::machine, &rank_introduction::processors, &rank_introduction::allowed>;
 };
 
-/// Of the calling process.
+/// Of the calling process, whose binding is wider for a moment.
 rank_introduction introduction();
 
-/// Who computes.
+/// Who computes, and what.
 struct rank_groups {
   std::vector<std::int32_t> leader_of_rank;          ///< by rank; a leader is its own
   std::vector<std::vector<std::int32_t>> processors; ///< by rank: of a leader those of its group; else none

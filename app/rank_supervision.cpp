@@ -24,6 +24,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <deque>
 #include <optional>
 #include <string>
 #include <thread>
@@ -148,6 +149,9 @@ int conclude(const std::vector<rank_end>& ends, bool first_has_spoken, const cle
   auto failed = std::find_if(ends.begin(), ends.end(),
                              [](const rank_end& end) { return end.code == exit_stopped && end.by_itself; });
   if (failed == ends.end())
+    failed = std::find_if(ends.begin(), ends.end(),
+                          [&](const rank_end& end) { return has_failed(end) && !end.was_told; });
+  if (failed == ends.end())
     failed = std::find_if(ends.begin(), ends.end(), has_failed);
   if (failed == ends.end())
     return exit_ok;
@@ -254,9 +258,11 @@ int relay_of_rank(supervisor& computing, const relay_sockets& sockets, const kep
   }
 }
 
-/// From now on this process and its workers may use these.
+/// From now on this process and its workers may use these, unless there are more than the system tells.
 void use_processors(const std::vector<std::int32_t>& processors) {
   cpu_set_t bound;
+  if (::sched_getaffinity(0, sizeof bound, &bound) != 0)
+    return;
   CPU_ZERO(&bound);
   for (const std::int32_t p : processors)
     if (p < CPU_SETSIZE)
@@ -265,32 +271,41 @@ void use_processors(const std::vector<std::int32_t>& processors) {
 }
 
 /// Until the leader of this rank's group is done. Whatever ends it before, the relay knows.
-int await_leader(network_by_relay& network, int leader) {
-  try {
-    while (awaited(network).peer != leader) {
-    }
-  } catch (const communication_error&) { // the leader may have been asked to stop first
-    if (!stop_was_requested())
-      throw;
-    return exit_stopped;
-  } catch (const cancelled&) {
-    return exit_stopped;
+void await_leader(network_by_relay& network, int leader, std::deque<rank_message> early) {
+  const auto next = [&] {
+    if (early.empty())
+      return awaited(network);
+    rank_message first = std::move(early.front());
+    early.pop_front();
+    return first;
+  };
+  while (next().peer != leader) {
   }
-  return exit_ok;
 }
 
 /// The command for all of a group on its leader; the others wait.
 int compute_in_group(network_by_relay network, int partition_desk, const ranks_to_run& ranks,
                      const std::function<int(const relayed_rank&)>& command) {
-  auto [groups, early] = meet(network, introduction(), ranks.group, ranks.command_line);
-  const int own = network.rank(), leader = groups.leader_of_rank[static_cast<std::size_t>(own)];
-  if (own != leader)
-    return await_leader(network, leader);
-  const std::vector<int> group = groups.group_of(own);
+  const int own = network.rank();
+  met_ranks met;
+  try {
+    met = meet(network, introduction(), ranks.group, ranks.command_line);
+    if (const int leader = met.groups.leader_of_rank[static_cast<std::size_t>(own)]; own != leader) {
+      await_leader(network, leader, std::move(met.early));
+      return exit_ok;
+    }
+  } catch (const cancelled&) {
+    return ranks.stopped();
+  } catch (const communication_error&) { // a rank that was asked to stop too may have gone first
+    if (!stop_was_requested())
+      throw;
+    return ranks.stopped();
+  }
+  const std::vector<int> group = met.groups.group_of(own);
   if (group.size() > 1)
-    use_processors(groups.processors[static_cast<std::size_t>(own)]);
-  const int code = command({network_of_leaders(network, groups, std::move(early)), partition_desk,
-                            static_cast<int>(group.size())});
+    use_processors(met.groups.processors[static_cast<std::size_t>(own)]);
+  const int code =
+      command({network_of_leaders(network, met.groups, std::move(met.early)), partition_desk, group});
   if (code == exit_ok)
     for (const int member : group)
       if (member != own)

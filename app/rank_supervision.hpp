@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace dovetail::app {
 
@@ -13,13 +14,14 @@ namespace dovetail::app {
 struct relayed_rank {
   any_communicator network; ///< of the processes that compute
   int partition_desk;       ///< a socket to its `partition_desk`
-  int ranks;                ///< for which it computes
+  std::vector<int> group;   ///< the ranks for which it computes, itself too
 };
 
 /// How ranks are started.
 struct ranks_to_run {
-  std::string command_line; ///< the same for all
-  int group;                ///< so many ranks of a machine compute as one at most; 0: all of them
+  std::string command_line;     ///< the same for all
+  int group;                    ///< so many ranks of a machine compute as one at most; 0: all of them
+  std::function<int()> stopped; ///< says that the command was stopped, and returns its exit code
 };
 
 /// What is done where a command did not come to its end.

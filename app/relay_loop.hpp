@@ -22,8 +22,9 @@ struct rank_end {
   int code = exit_ok;
   bool by_itself = false; ///< and was not killed because another one had ended
   std::string cause;      ///< one line, where it did not end well
+  bool was_told = false;  ///< that another rank goes no further, before
 
-  using fields = field_list<&rank_end::code, &rank_end::by_itself, &rank_end::cause>;
+  using fields = field_list<&rank_end::code, &rank_end::by_itself, &rank_end::cause, &rank_end::was_told>;
 };
 
 /// What a relay has to do besides passing messages.
@@ -106,7 +107,8 @@ private:
   }
 
   rank_end end() {
-    rank_end found{computing_.code(), others_go_on_ || stopped_ || !computing_.was_killed(), {}};
+    rank_end found{
+        computing_.code(), others_go_on_ || stopped_ || !computing_.was_killed(), {}, !others_go_on_};
     const bool stopped_at_its_end = stopped_ && found.code == exit_ok; // at that of the others, perhaps not
     if (stopped_at_its_end)
       found.code = exit_stopped;

@@ -134,8 +134,9 @@ int largest_rank_group(const mesh_options& options) {
 }
 
 int workers_of_rank(const mesh_options& options) {
-  return options.workers > 0 ? options.workers * options.computes_for
-                             : std::min(options.computes_for, parallel::available_processors());
+  const int of_each = std::max(1, options.workers);
+  const int ranks = std::max(1, static_cast<int>(options.group.size()));
+  return std::min(of_each * ranks, std::max(of_each, parallel::available_processors()));
 }
 
 template <int D>

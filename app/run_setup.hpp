@@ -19,7 +19,8 @@ void choose_for_alone(mesh_options& options);
 
 /// How many ranks of a machine compute as one at most, 0: all of them. Before the options are checked.
 int largest_rank_group(const mesh_options& options);
-/// Of a rank that computes: for each rank of its group as many as wanted, or as many as it has processors.
+/// Of a rank that computes: for each rank of its group as many as wanted, one by default, but no more than it
+/// has processors, unless one rank was given more.
 int workers_of_rank(const mesh_options& options);
 
 /// Throws `command_line_error` for numbers out of range.

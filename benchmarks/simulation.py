@@ -9,8 +9,8 @@ are meshed, but for reading the model).
 Where there are more ranks than processors, so many single processes that make the mesh at once say by how much work takes
 longer for each further process on a processor: that is --turns-cost.
 
-Options: --ranks 1,2,4,7, --latency S of a message, --turns-cost C to give what is measured else, --repeats N (of each the fastest counts), --traced-workers N (default: as many as processors), --size S or
---elements N, and those of `dovetail mesh`.
+Options: --ranks 1,2,4,7, --latency S of a message, --turns-cost C to give what is measured else, --repeats N (of each the
+fastest counts), --traced-workers N (default: as many as processors), --size S or --elements N, and those of `dovetail mesh`.
 """
 import argparse
 import json
@@ -118,11 +118,11 @@ def main():
         traced_run = pathlib.Path(folder) / "traced.json"
         trace.replace(traced_run)
         for count in ranks:
-            for name, in_a_rank, options in (("", count, []), (", each by itself", 1, ["--rank-group", "1"])):
-                if count == 1 and in_a_rank == 1 and options:
-                    continue
+            one_group = ("", count, single if count == 1 else mesh)
+            by_themselves = (", each by itself", 1, mesh + ["--rank-group", "1"])
+            for name, in_a_rank, command in [one_group] + [by_themselves] * (count > 1):
                 expected = simulated(driver, traced_run, count, in_a_rank, machine)
-                measured, its_hash = fastest(["mpirun", "-n", str(count)] + mesh + options, given.repeats, trace)
+                measured, its_hash = fastest(["mpirun", "-n", str(count)] + command, given.repeats, trace)
                 if its_hash != mesh_hash:
                     sys.exit("the meshes differ")
                 cells = [f"{s:.2f} | {m:.2f} | {100 * (s / m - 1):+.0f}" for s, m in zip(expected, measured)]

@@ -99,10 +99,10 @@ own=${#mesh[@]}
 for ranks_and_group in "3 0" "4 2" "7 3"; do
   read -r ranks group <<<"$ranks_and_group"
   fresh several
-  on_ranks "$ranks" several "${mesh[@]:0:own-1}" "$group" --format vtu,msh --workers 1
+  on_ranks "$ranks" several "${mesh[@]:0:own-1}" "$group" --format vtu,msh
   ((status == 0)) || fault "exit code is $status"
   [[ $(files_of several) == "$(files_of alone)" ]] || fault "other files than with one rank"
-  [[ $(figure executor several) == ranks && $(figure workers several) == "$ranks" ]] || fault "the report tells of other workers"
+  [[ $(figure executor several) == ranks ]] || fault "the report tells of another executor"
   [[ $(grep -c "^The mesh is in" "$sandbox/stdout") == 1 ]] || fault "not one summary"
   nothing_left several
 done
@@ -110,6 +110,9 @@ fresh several
 on_ranks 3 several "${mesh[@]:0:own-2}" --format vtu,msh # no more workers than processors
 processors=$(nproc)
 [[ $(figure workers several) == $((processors < 3 ? processors : 3)) ]] || fault "the report tells of other workers"
+fresh several
+on_ranks 3 several "${mesh[@]:0:own-2}" --format vtu,msh --workers $((processors + 1)) # unless one rank was given more
+[[ $(figure workers several) == $((processors + 1)) ]] || fault "the report tells of other workers"
 [[ $(files_of several) == "$(files_of alone)" ]] || fault "other files than with one rank"
 what="two ranks of a group that are bound to a processor each"
 if "$mpirun" --version | grep -q "(Open MPI) 4" && ((processors > 1)); then
@@ -273,6 +276,18 @@ wait_for_process 10
 says_that_it_was_stopped
 resume_on 2
 
+# A rank that waits is asked to stop; its computing process is the one without children.
+start_until 3 intersection "${long[@]:0:8}"
+for waiting in $(computing); do
+  [[ $(pgrep -P "$waiting") || $waiting == "$(computing | head -n 1)" ]] || break
+done
+kill -TERM "$waiting"
+wait_for_process 10
+((status != 0)) || fault "exit code is 0"
+[[ $(grep -c '^dovetail: ' "$sandbox/stderr") == 1 ]] || fault "not one line of complaint"
+no_process_left
+resume_on 3
+
 # 5. Spools on disks that the other ranks do not see, of which one is lost.
 disks=$sandbox/disks
 fresh several
@@ -291,5 +306,20 @@ rm -r "$disks/rank_1"
 long+=(--spool "$disks")
 resume_on 2
 [[ -z $(find "$disks/rank_0" "$disks/rank_1" -type f 2>/dev/null) ]] || fault "the spools of the two ranks are not gone"
+
+# Each rank has one, then they are a group: those that wait keep nothing. And the other way round.
+rm -rf "$disks"
+grouped=("${long[@]:0:8}" --spool "$disks" --rank-group)
+for one_then in "1 0" "0 1" "2 1"; do
+  read -r first then <<<"$one_then"
+  start_until 3 intersection "${grouped[@]}" "$first"
+  kill -TERM $process
+  wait_for_process 10
+  says_that_it_was_stopped
+  on_ranks 3 several "${grouped[@]}" "$then" --resume
+  ((status == 0)) || fault "exit code is $status"
+  [[ $(figure mesh_hash several) == "$(figure mesh_hash whole)" ]] || fault "another hash after resuming"
+  [[ -z $(find "$disks" -type f) ]] || fault "left in spools: $(find "$disks" -type f | head -n 3)"
+done
 
 finish

@@ -122,7 +122,7 @@ same_as_whole() {
 # go_on <ranks>: to the end.
 go_on() {
   what="$1 ranks: dovetail ${mesh[*]} --resume, after: $what"
-  (cd several && timeout 1000 "$mpirun" -n "$1" "$driver" "${mesh[@]}" --resume >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
+  (cd several && timeout 1000 "$mpirun" -n "$1" "$driver" "${mesh[@]}" --resume --rank-group $((going_on++ % 3)) >"$sandbox/stdout" 2>"$sandbox/stderr" </dev/null)
   status=$?
   same_as_whole
 }
@@ -152,6 +152,7 @@ status=$?
 cat "$sandbox/stderr"
 
 numbers=(2 4 7)
+going_on=0
 group=([2]=1 [3]=1 [4]=2 [7]=3)
 tried=0
 for victim in relay computing worker; do
@@ -185,4 +186,5 @@ try 3 finishing "${own[@]}" --resume
 [[ ! -e $sandbox/spools/rank_2/piece_begun.blob.part ]] || fault "left in the spool of rank 2"
 mesh+=("${own[@]}")
 go_on 3
+[[ -z $(find "$sandbox/spools" -type f) ]] || fault "left in spools: $(find "$sandbox/spools" -type f | head -n 3)"
 finish

@@ -115,7 +115,10 @@ class batch_simulation {
 public:
   batch_simulation(const std::vector<simulated_task>& tasks, const simulated_machine& machine)
       : tasks_(tasks), machine_(machine), to_manager_(machine), from_manager_(machine),
-        workers_(static_cast<std::size_t>(working())) {}
+        workers_(static_cast<std::size_t>(working())), ranks_(static_cast<std::size_t>(working_ranks())) {
+    for (std::size_t w = 0; w < workers_.size(); ++w)
+      ++ranks_[rank_of(w)].working;
+  }
 
   void add_to(simulated_times& times) {
     to_manager_.pass(0, static_cast<double>(ranks_of(machine_) - working_ranks()) * message_bytes::header);
@@ -129,8 +132,7 @@ public:
       if (!is_end)
         answer(time, worker);
       else
-        gathered =
-            std::max(gathered, is_managers(worker) ? time : to_manager_.pass(time, bytes_given_by(worker)));
+        gathered = std::max(gathered, ended(time, rank_of(worker)));
     }
     double joined = static_cast<double>(ranks_of(machine_)) * message_bytes::part;
     for (const simulated_task& task : tasks_)
@@ -147,7 +149,10 @@ private:
   struct worker_state {
     double free = 0;             ///< when it is done with what it has
     std::int64_t unanswered = 0; ///< tasks, started or done, whose request has no answer yet
-    double bytes = 0;            ///< of its results
+  };
+  struct rank_state {
+    std::int64_t working = 0; ///< of its workers
+    double bytes = 0;         ///< of its results
   };
   /// A worker asks for a task, or knows that nothing is left.
   struct event {
@@ -162,27 +167,32 @@ private:
     const auto some = std::min<std::int64_t>(machine_.workers, static_cast<std::int64_t>(tasks_.size()));
     return machine_.cores == 0 ? some : std::min(some, machine_.cores);
   }
-  std::int64_t working_ranks() const {
-    return std::min((working() + machine_.workers_per_rank - 1) / machine_.workers_per_rank,
-                    ranks_of(machine_));
+  std::int64_t working_ranks() const { return std::min(working(), ranks_of(machine_)); }
+  /// The first tasks go to a worker of each rank, the next to a second one of each.
+  std::size_t rank_of(std::size_t worker) const {
+    return worker % static_cast<std::size_t>(ranks_of(machine_));
   }
-  bool is_managers(std::size_t worker) const {
-    return worker < static_cast<std::size_t>(machine_.workers_per_rank);
+  /// A worker of the rank has nothing left; the last one gives the results of all. Returns when the manager
+  /// has them.
+  double ended(double time, std::size_t rank) {
+    rank_state& of = ranks_[rank];
+    if (--of.working > 0 || rank == 0)
+      return time;
+    return to_manager_.pass(time, message_bytes::header + of.bytes);
   }
-  double bytes_given_by(std::size_t worker) const { return message_bytes::header + workers_[worker].bytes; }
 
   void start(std::size_t number, double told) {
     const simulated_task& task = tasks_[next_++];
     worker_state& worker = workers_[number];
     worker.free = std::max(worker.free, told) + task.seconds;
     ++worker.unanswered;
-    worker.bytes += task.bytes + message_bytes::outcome;
+    ranks_[rank_of(number)].bytes += task.bytes + message_bytes::outcome;
     busy_ += task.seconds;
     events_.push({worker.free, number, false});
   }
 
   void answer(double asked, std::size_t number) {
-    const bool is_manager = is_managers(number);
+    const bool is_manager = rank_of(number) == 0;
     manager_ = std::max(manager_, is_manager ? asked : to_manager_.pass(asked, message_bytes::request)) +
                machine_.request_seconds;
     managing_ += machine_.request_seconds;
@@ -199,6 +209,7 @@ private:
   shared_link to_manager_;
   shared_link from_manager_;
   std::vector<worker_state> workers_;
+  std::vector<rank_state> ranks_;
   std::priority_queue<event, std::vector<event>, std::greater<>> events_ = {};
   std::size_t next_ = 0;
   double manager_ = 0;
