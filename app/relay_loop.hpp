@@ -107,8 +107,10 @@ private:
   }
 
   rank_end end() {
-    rank_end found{
-        computing_.code(), others_go_on_ || stopped_ || !computing_.was_killed(), {}, !others_go_on_};
+    rank_end found{computing_.code(),
+                   others_go_on_ || stopped_ || !computing_.was_killed(),
+                   {},
+                   !others_go_on_ && !stopped_};
     const bool stopped_at_its_end = stopped_ && found.code == exit_ok; // at that of the others, perhaps not
     if (stopped_at_its_end)
       found.code = exit_stopped;

@@ -108,6 +108,7 @@ TEST_CASE("who is asked to stop tells the others before it has ended, and is not
   CHECK(was_there);
   CHECK(end.code == exit_stopped);
   CHECK(end.by_itself);
+  CHECK_FALSE(end.was_told);
   CHECK(end.cause == stopped_line(false));
 }
 
@@ -137,6 +138,7 @@ TEST_CASE("a request to stop that came to another rank is passed on, and not wha
   });
   const rank_end by_failure = ended.end_on(observed_network([] {}, "rank 1: out of memory"));
   CHECK_FALSE(by_failure.by_itself);
+  CHECK(by_failure.was_told);
   CHECK(by_failure.cause == "");
 }
 
