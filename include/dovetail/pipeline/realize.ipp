@@ -26,11 +26,11 @@ template <int D, bound_parameters<D> Parameters>
 void space_lines(const any_geometry& model, const surface_mesh& surface, std::span<const vec3> coarse_points,
                  const refined_sizing& size, skeleton_memo& made, const Parameters& given,
                  realized<D>& result) {
-  result.lines = number_lines(result.coarse,
-                              remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks,
-                                           made.lines, given.options.on_progress,
-                                           {std::move(result.lines.lines), std::move(result.lines.names)}),
-                              coarse_points, surface.vertex_hosts);
+  remeshed_lines before{std::move(result.lines.lines), std::move(result.lines.names)};
+  auto remeshed = remesh_lines(model, result.coarse.lines, coarse_points, size, given.run_tasks, made.lines,
+                               given.options.on_progress, std::move(before));
+  result.lines = number_lines(result.coarse, std::move(remeshed), coarse_points, surface.vertex_hosts,
+                              std::move(result.lines));
 }
 
 /// The surface step of both dimensions: the skeleton of the pieces of a surface, and of the interface faces

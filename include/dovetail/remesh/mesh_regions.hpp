@@ -116,7 +116,8 @@ inline std::string folds_of(const patch_mesh& made) {
 /// meshes, so each is built when it is needed and not held.
 template <geometry_model Geometry>
 struct region_set {
-  std::size_t count = 0; ///< how many regions there are
+  std::size_t count = 0;           ///< how many regions there are
+  std::size_t boundary_points = 0; ///< of all of them together, about, where that is known
   /// A region without `surface` and `forbids`, from a model of the worker's own; pure.
   std::function<surface_region(const Geometry&, std::size_t)> build;
   /// The surface of a region, from a model of the worker's own.

@@ -52,6 +52,10 @@ public:
     result_.of_region.reserve(set.count);
     faces_.reserve(set.count);
     costs_.reserve(set.count);
+    result_.labels.items.reserve(set.boundary_points);
+    result_.labels.begins.reserve(set.count + 1);
+    segments_.items.reserve(set.boundary_points);
+    segments_.begins.reserve(set.count + 1);
     for (std::size_t r = 0; r < set.count; ++r) {
       const surface_region region = outline(r);
       result_.of_region.push_back(kept_mesh(r, region));

@@ -53,8 +53,10 @@ struct numbered_lines {
 /// \param lines one per line of the skeleton
 /// \param coarse_points of the background mesh
 /// \param coarse_hosts the CAD entity of each coarse point
+/// \param before lines that are not needed any more, whose memory is used again
 numbered_lines number_lines(const coarse_skeleton& skeleton, remeshed_lines lines,
-                            std::span<const vec3> coarse_points, std::span<const host> coarse_hosts);
+                            std::span<const vec3> coarse_points, std::span<const host> coarse_hosts,
+                            numbered_lines before = {});
 
 } // namespace dovetail
 

@@ -29,8 +29,11 @@ DOVETAIL_INLINE std::vector<local_id> numbered_lines::along(local_id line, local
 
 DOVETAIL_INLINE numbered_lines number_lines(const coarse_skeleton& skeleton, remeshed_lines made,
                                             std::span<const vec3> coarse_points,
-                                            std::span<const host> coarse_hosts) {
-  numbered_lines result;
+                                            std::span<const host> coarse_hosts, numbered_lines before) {
+  numbered_lines result = std::move(before);
+  result.first_point.clear();
+  result.points.clear();
+  result.hosts.clear();
   result.keys = skeleton.lines;
   result.number_of_coarse_point.assign(coarse_points.size(), no_id);
   const auto use = [&](local_id v) { result.number_of_coarse_point[v] = 0; };

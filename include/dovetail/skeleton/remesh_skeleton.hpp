@@ -120,6 +120,7 @@ public:
     if (lines_.names.empty())
       return set;
     lines_of_face_ = lines_of_faces(skeleton_);
+    set.boundary_points = boundary_points();
     set.outline_of = [this](std::size_t p) {
       return interface_outline(face_of(p), lines_of_face_[p - skeleton_.regions.size()], lines_);
     };
@@ -176,6 +177,18 @@ public:
   }
 
 private:
+  /// Of all patches together, about: a line on the surface bounds two regions, and it may bound faces.
+  std::size_t boundary_points() const {
+    std::size_t sum = 0;
+    for (std::size_t l = 0; l < lines_.keys.size(); ++l)
+      if (lines_.keys[l].on.dimension < 3)
+        sum += 2 * (lines_.lines[l].points.size() + 1);
+    for (const auto& its : lines_of_face_)
+      for (const local_id line : its)
+        sum += lines_.lines[line].points.size() + 1;
+    return sum;
+  }
+
   skeleton_patch patch(const Geometry& own, std::size_t p) const {
     return is_region(p) ? region_patch(own, surface_, skeleton_.regions[p], lines_)
                         : interface_patch(face_of(p), coarse_points_, lines_).patch;
