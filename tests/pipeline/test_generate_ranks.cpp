@@ -1,14 +1,22 @@
 #include "dovetail/distributed/ranks.hpp"
 #include "dovetail/mesher/native_surface.hpp"
+#include "dovetail/models/discrete/repair.hpp"
+#include "dovetail/models/discrete_model.hpp"
 #include "dovetail/models/plane_domain.hpp"
 #include "dovetail/parallel/any_executor.hpp"
 #include "dovetail/parallel/checkpointed.hpp"
 #include "dovetail/parallel/in_process.hpp"
 #include "dovetail/parallel/serial.hpp"
 #include "dovetail/parallel/spool_exchange.hpp"
+#include "dovetail/pipeline/model_measure.hpp"
+#include "dovetail/sizing/uniform.hpp"
+#include "models/discrete_shapes.hpp"
 #include "ranked_meshes.hpp"
 
 #include <doctest/doctest.h>
+
+#include <atomic>
+#include <optional>
 
 using namespace dovetail;
 using namespace dovetail::testing;
@@ -27,7 +35,29 @@ ranked_mesh mesh_square(const any_executor& run, const std::filesystem::path& fo
   return mesh_on<2>(run, square_with_hole(), 0.03, mesher::native_surface{}, options, folder);
 }
 
+/// Counts how often it is asked for its volume.
+struct asked_cube : discrete_model {
+  explicit asked_cube(std::atomic<int>& times)
+      : discrete_model(repaired(box_soup({0, 0, 0}, {1, 1, 1}, 2))), asked(&times) {}
+  std::optional<double> volume() const {
+    ++*asked;
+    return discrete_model::volume();
+  }
+  std::atomic<int>* asked;
+};
+
 } // namespace
+
+TEST_CASE("one of the ranks asks a model for its volume, and all compare it") {
+  std::atomic<int> asked = 0;
+  const asked_cube cube(asked);
+  parallel::run_ranks(3, [&](parallel::in_process& mine) {
+    const auto made =
+        generate<3>(cube, uniform_size(0.5), parameters<>{}.with_executor(parallel::ranks(mine)));
+    CHECK(made.summary.as<volume_counts>().model_volume == doctest::Approx(1));
+  });
+  CHECK(asked == 1);
+}
 
 TEST_CASE("ranks make the mesh and the files that one process makes, whatever their number") {
   const scratch_folder folder("ranks");

@@ -10,6 +10,7 @@
 #include "dovetail/mesh/distributed_mesh.hpp"
 #include "dovetail/mesh/quality.hpp"
 #include "dovetail/meshing/mesh_subdomains.hpp"
+#include "dovetail/parallel/executor_services.hpp"
 #include "dovetail/pipeline/background.hpp"
 #include "dovetail/pipeline/bound_parameters.hpp"
 #include "dovetail/pipeline/intersection_counts.hpp"
@@ -17,6 +18,7 @@
 #include "dovetail/pipeline/only.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -102,8 +104,10 @@ generated<D> generate(const G& given_model, const H& given_size, const Parameter
     detail::require_separable<D>(given.options);
     auto result = generate_from_background<D>(model, make_background<D>(model, size, given), given);
     if constexpr (D == 3 && requires { given_model.volume(); })
-      if (given.options.only.empty())
-        compare_volume(result.mesh.skeleton, given_model.volume(), result.summary);
+      if (given.options.only.empty()) {
+        const auto of_model = [&] { return std::optional<double>(given_model.volume()); };
+        compare_volume(result.mesh.skeleton, once(given.run_tasks, of_model), result.summary);
+      }
     return result;
   }
 }
