@@ -34,7 +34,7 @@ std::string with_angles(const std::string& list) {
   return R"({"interfaces": {"below_threshold": )" + list + "}}";
 }
 
-const std::string whole = R"({
+const std::string whole_report = R"({
   "model": "wing",
   "suppressed": [{"what": "narrow face", "entity": 31, "length": 0.25, "at": [1, 1, 2]}],
   "poor_elements": {"causes": [{"cause": "thin wall", "bad": 3, "low": 9}], "thinnest_wall": {"thickness": 0.0125, "at": [7, 8, 9]}},
@@ -49,7 +49,7 @@ const std::string whole = R"({
       {"angle_deg": 9, "of": "face", "cause": "unheard of", "at": [4, 5, 6], "cad": []}]}}})";
 
 TEST_CASE("all places of a report become marks, the thinnest wall first") {
-  const view_marks marks = read(whole);
+  const view_marks marks = read(whole_report);
   REQUIRE(marks.all.size() == 7);
   CHECK(marks.report.ends_with("run.json"));
   CHECK(marks.all[0].label == "thinnest wall");
@@ -67,7 +67,7 @@ TEST_CASE("all places of a report become marks, the thinnest wall first") {
 }
 
 TEST_CASE("marks of one label have one colour, and other labels another one") {
-  const view_marks marks = read(whole);
+  const view_marks marks = read(whole_report);
   CHECK(marks.all[1].colour == marks.all[3].colour);
   const auto labels = labels_of(marks);
   REQUIRE(labels.size() == 6);
@@ -81,7 +81,7 @@ TEST_CASE("marks of one label have one colour, and other labels another one") {
 }
 
 TEST_CASE("the number of elements is read where there is one") {
-  CHECK(read(whole).elements == 0);
+  CHECK(read(whole_report).elements == 0);
   CHECK(read(R"({"elements": 12})").elements == 12);
   CHECK(read(R"({"elements": "many"})").elements == 0);
 }
@@ -99,7 +99,7 @@ TEST_CASE("a report that lists no places has no marks") {
 TEST_CASE("what is no report is refused, by the file's name and what is wrong") {
   const std::pair<std::string, std::string> refused[] = {
       {"no report", "it is not valid JSON"},
-      {whole.substr(0, whole.size() / 2), "it is not valid JSON"},
+      {whole_report.substr(0, whole_report.size() / 2), "it is not valid JSON"},
       {"{\"model\": \"\xff\"}", "it is not valid JSON"},
       {std::string(200000, '['), "it is not valid JSON"},
       {"[]", "it is no JSON object"},
@@ -175,7 +175,7 @@ TEST_CASE("a file that is not there, is empty or a folder, is refused") {
 }
 
 TEST_CASE("marks far from the mesh are counted") {
-  view_marks marks = read(whole);
+  view_marks marks = read(whole_report);
   CHECK(marks_outside(marks, {{-1, -1, -1}, {9, 9, 9}}) == 0);
   CHECK(marks_outside(marks, {{0, 0, 0}, {5, 5, 6}}) == 2); // the wall, and the first angle by its z
 }

@@ -302,8 +302,8 @@ TEST_CASE(
     "The shape of a side is its smallest corner, of an edge the smallest angle of a triangle at its ends") {
   // A right triangle of 30 and 60 degrees, and an equilateral one on its longer leg.
   const double leg = std::sqrt(3.0);
-  simplicial_mesh<2> triangles{{{0, 0, 0}, {leg, 0, 0}, {0, 1, 0}, {leg / 2, -1.5, 0}},
-                               {{0, 1, 2}, {1, 0, 3}}};
+  simplicial_mesh<2> triangles{
+      {{0, 0, 0}, {leg, 0, 0}, {0, 1, 0}, {leg / 2, -1.5, 0}}, {{0, 1, 2}, {1, 0, 3}}, {}};
   const auto edges = build_sides(triangles);
   const auto of_edges = side_shapes(triangles, edges);
   for (std::size_t s = 0; s < edges.size(); ++s) {
@@ -312,7 +312,7 @@ TEST_CASE(
     const bool of_equilateral_alone = a == 3 || b == 3;
     CHECK(of_edges[s] == doctest::Approx(of_equilateral_alone || !has_smallest ? 60 : 30));
   }
-  simplicial_mesh<3> tetrahedron{{{0, 0, 0}, {leg, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}};
+  simplicial_mesh<3> tetrahedron{{{0, 0, 0}, {leg, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}, {}};
   const auto faces = build_sides(tetrahedron);
   const auto of_faces = side_shapes(tetrahedron, faces);
   for (std::size_t s = 0; s < faces.size(); ++s) {
