@@ -197,8 +197,8 @@ double mark_largest_errors(const std::vector<Cell>& cells, double allowed, std::
   return sum;
 }
 
-/// The sum of all errors, added up in the order in which `mark_largest_errors` does it, so the same to the
-/// last bit.
+/// The sum in the order in which `mark_largest_errors` adds up, so the same to the last bit.
+/// \param errors of all cells
 inline double sum_of_errors(std::vector<double> errors) {
   sort_all(errors);
   return std::accumulate(errors.begin(), errors.end(), 0.0);
