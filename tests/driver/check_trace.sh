@@ -54,11 +54,11 @@ done
 # The memory of a node, where the trace says what it goes with.
 grep -q '"largest_piece": [1-9]' "$inputs/0.1.json" || fault "the trace does not say how large a piece is"
 grep -q "Memory" "$sandbox/stdout" && fault "memory that was not asked for"
-expect_success simulate "$inputs/0.1.json" --workers 1,4 --cores-per-node 4 --memory-per-node 0.15
+expect_success simulate "$inputs/0.1.json" --workers 1,4 --cores-per-node 4 --memory-per-node 0.09
 memory_of() { sed -n "s/^ *$1 *\([0-9.]*\) *\([0-9.]*\)\$/\1 \2/p" "$sandbox/stdout"; }
-[[ $(memory_of "ranks of one worker") == "0.04 0.16" ]] || fault "four ranks need '$(memory_of "ranks of one worker")' GB"
-[[ $(memory_of "one rank") == "0.04 0.04" ]] || fault "one rank needs '$(memory_of "one rank")' GB"
-[[ $(grep "more than its" "$sandbox/stdout") == "With 4 workers, ranks of one worker on a node, more than its 0.15 GB" ]] ||
+[[ $(memory_of "ranks of one worker") == "0.03 0.10" ]] || fault "four ranks need '$(memory_of "ranks of one worker")' GB"
+[[ $(memory_of "one rank") == "0.03 0.03" ]] || fault "one rank needs '$(memory_of "one rank")' GB"
+[[ $(grep "more than its" "$sandbox/stdout") == "With 4 workers, ranks of one worker on a node, more than its 0.09 GB" ]] ||
   fault "not the one number of workers that is too much"
 expect_success simulate "$inputs/0.1.json" "$inputs/0.06.json" --elements 1e9 --workers 64 --cores-per-node 32
 grep -q "with up to 32 workers" "$sandbox/stdout" || fault "no memory for another size"
