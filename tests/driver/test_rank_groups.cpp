@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include <sched.h>
+
 namespace {
 
 using namespace dovetail;
@@ -48,12 +50,21 @@ TEST_CASE("A leader has the processors of its group, and no rank joins that has 
   CHECK(groups.processors == std::vector<numbers>{{0, 1, 2}, {}, {}, {5, 6}, {}});
 }
 
-TEST_CASE("A process can be bound to what it is bound to") {
+TEST_CASE("A process tells what it is bound to and could be, and is bound as before") {
+  cpu_set_t before, one;
+  REQUIRE(::sched_getaffinity(0, sizeof before, &before) == 0);
   const rank_introduction own = introduction();
   CHECK_FALSE(own.machine.empty());
   CHECK_FALSE(own.processors.empty());
   CHECK(std::includes(own.allowed.begin(), own.allowed.end(), own.processors.begin(), own.processors.end()));
-  CHECK(introduction().processors == own.processors);
+  CPU_ZERO(&one);
+  CPU_SET(own.processors.back(), &one);
+  REQUIRE(::sched_setaffinity(0, sizeof one, &one) == 0);
+  const rank_introduction bound = introduction();
+  CHECK(bound.processors == numbers{own.processors.back()});
+  CHECK(bound.allowed == own.allowed);
+  CHECK(introduction().processors == bound.processors);
+  ::sched_setaffinity(0, sizeof before, &before);
 }
 
 TEST_CASE("Ranks meet, leaders speak to each other alone, and the others wait until theirs is done") {
